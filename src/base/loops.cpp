@@ -1,0 +1,18 @@
+#include "base/loops.hpp"
+
+#include "base/fault.hpp"
+
+namespace livebed::base {
+
+namespace {
+int thread_count = 1;
+}
+
+void set_threads(int n) {
+  if (n < 1) fail(Exit::command_line, "--threads = {} is not allowed; give 1 or more", n);
+  thread_count = n;
+}
+
+int threads() { return thread_count; }
+
+}  // namespace livebed::base

@@ -1,0 +1,47 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+/// The only file that knows threads.  Loops hand out whole items (rows, slices, blocks) and sums are made of partial sums
+/// per item, added in the order of the items: the bits do not depend on the number of threads.
+namespace livebed::base {
+
+/// Number of threads that parallel loops use; set once at start-up.  Throws Fault (command line) for n < 1.
+void set_threads(int n);
+int threads();
+
+/// Calls body(k) once for every k in [begin, end), on all threads.  body must not throw and writes only what belongs to
+/// item k.
+template <class Body>
+void for_each_item(int begin, int end, Body&& body) {
+  const int n = threads();
+  if (n == 1 || end - begin < 2) {
+    for (int k = begin; k < end; ++k) body(k);
+    return;
+  }
+#pragma omp parallel for schedule(static) num_threads(n)
+  for (int k = begin; k < end; ++k) body(k);
+}
+
+/// Sum of item(k) over [begin, end) in the order of k.  Scratch holds the partial sums (grown once, then reused).
+template <class Item>
+double ordered_sum(int begin, int end, std::vector<double>& scratch, Item&& item) {
+  if (scratch.size() < static_cast<std::size_t>(std::max(0, end - begin))) scratch.resize(end - begin);
+  for_each_item(begin, end, [&](int k) { scratch[k - begin] = item(k); });
+  double sum = 0;
+  for (int k = begin; k < end; ++k) sum += scratch[k - begin];
+  return sum;
+}
+
+/// Largest item(k) over [begin, end); lowest when the range is empty.
+template <class Item>
+double largest(int begin, int end, std::vector<double>& scratch, double lowest, Item&& item) {
+  if (scratch.size() < static_cast<std::size_t>(std::max(0, end - begin))) scratch.resize(end - begin);
+  for_each_item(begin, end, [&](int k) { scratch[k - begin] = item(k); });
+  double result = lowest;
+  for (int k = begin; k < end; ++k) result = std::max(result, scratch[k - begin]);
+  return result;
+}
+
+}  // namespace livebed::base

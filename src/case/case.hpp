@@ -1,0 +1,41 @@
+#pragma once
+#include <string>
+
+#include "coupling/params.hpp"
+#include "flow/params.hpp"
+#include "grains/params.hpp"
+
+namespace livebed::casefile {
+
+struct TimeParams {
+  double end = 7;               ///< last time [s]; t = 0 is the release of the grains
+  double spin_up = 2;           ///< flow on the fixed bed before that [s]
+  bool stop_at_equilibrium = false;   ///< end as soon as S/D is steady
+  double equilibrium_change = 0.02;   ///< S/D steady: its range over equilibrium_window stays below this [-]
+  double equilibrium_window = 2;      ///< [T], T the scour time scale
+};
+
+struct OutputParams {
+  double series_every = 0.01;   ///< [s], rows of series.csv
+  double bed_every = 0.05;      ///< [s], lines of bed.csv
+  double fields_every = 0.25;   ///< [s], ParaView files
+  double checkpoint_every = 1;  ///< [s] of simulated time
+};
+
+/// One resolved case: everything a run needs, in SI units, derived numbers filled in.
+struct Case {
+  std::string title;
+  std::string preset = "livebed";
+  flow::Params flow;
+  grains::Params grains;
+  coupling::Params coupling;
+  TimeParams time;
+  OutputParams output;
+  double bed_thickness = 0.05;  ///< [m], nominal level of the bed; 0 when the case gives the count alone
+
+  // derived
+  double theta = 0;       ///< nominal Shields parameter of the approaching current [-]
+  double time_scale = 0;  ///< T = D^2 / sqrt(g (s-1) d^3) theta^(-5/3) / 50 [s]; 0 without pipe or grains
+};
+
+}  // namespace livebed::casefile

@@ -1,0 +1,65 @@
+#pragma once
+
+/// Plain parameters of the flow: what a case file says, in SI units.  Filled by `case`, read by `flow`.
+namespace livebed::flow {
+
+enum class Closure { laminar, k_epsilon };
+
+/// hybrid: central below a cell Peclet number of 2, upwind above (the paper).  bounded: second order with a limiter.
+enum class Convection { hybrid, bounded };
+
+/// What a solid surface does to the flow.  rough and smooth are wall functions (Eq. 9-12 of the paper with a rough or a
+/// smooth log law); no_slip resolves the viscous stress; slip has none.
+enum class Wall { rough, smooth, no_slip, slip };
+
+/// Velocity profile at the inlet: rough and smooth log law, the 1D solution of the same closure, or one speed.
+enum class Profile { rough, smooth, developed, uniform };
+
+/// Tensor-product grid over [0, length] x [0, height]: cells of size cell_x, cell_y inside the fine window, growing
+/// outside it by the ratio growth from cell to cell (1 = uniform everywhere).
+struct MeshParams {
+  double length = 0.5;   ///< [m]
+  double height = 0.2;   ///< [m], water and bed
+  double cell_x = 0.0025;  ///< [m]
+  double cell_y = 0.0025;  ///< [m]
+  double growth = 1.0;     ///< [-]
+  double fine_x_from = 0, fine_x_to = 0;  ///< [m], window of fine cells; the whole length when both are 0
+  double fine_y_from = 0, fine_y_to = 0;  ///< [m], the whole height when both are 0
+};
+
+struct PipeParams {
+  bool present = true;
+  double diameter = 0.05;  ///< D [m]
+  double x = 0.2;          ///< centre, distance from the inlet [m]
+  double y = 0;            ///< centre above the floor [m]; derived from the bed level and gap_ratio
+  double gap_ratio = 0;    ///< e/D [-], from the level of the bed to the pipe's lowest point; negative = embedded
+  Wall wall = Wall::smooth;
+  double roughness = 0;    ///< ks [m] of the rough law
+};
+
+/// The approaching current.
+struct CurrentParams {
+  Profile profile = Profile::rough;
+  double shear_velocity = 0;  ///< u* [m/s]; derived from whichever of theta, mean speed, u* the case gives
+  double mean_speed = 0;      ///< depth-mean over the water [m/s]; derived
+  double roughness = 0;       ///< ks [m], 2.5 d unless given
+  double bed_level = 0;       ///< height where the profile starts [m]
+};
+
+struct Params {
+  double density = 1000;    ///< rho [kg/m3]
+  double viscosity = 1e-6;  ///< nu [m2/s]
+  Closure closure = Closure::k_epsilon;
+  Convection convection = Convection::bounded;
+  Wall floor = Wall::rough;
+  double floor_roughness = 0;  ///< ks [m]
+  double courant = 0.8;        ///< target of the adaptive step [-]
+  double max_step = 0.01;      ///< [s]
+  double pressure_tolerance = 1e-6;  ///< residual after the solve over residual before it [-]
+  int pressure_iterations = 100;     ///< most iterations before the solve counts as failed
+  MeshParams mesh;
+  PipeParams pipe;
+  CurrentParams current;
+};
+
+}  // namespace livebed::flow
