@@ -1,0 +1,52 @@
+# Short names for what one does here.  The build itself is CMake's: see CMakePresets.json for the presets.
+.DEFAULT_GOAL := help
+.PHONY: help build all test run bench validate format format-check check sanitize clean
+
+jobs    := $(shell nproc)
+sources := find src tests bench -name '*.[ch]pp'
+
+configure = cmake --preset $(1) --log-level=WARNING >/dev/null
+compile   = cmake --build --preset $(1) --parallel $(jobs)
+
+help: ## this list
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
+
+build: ## the program, build/livebed
+	@tools/install-dependencies build
+	@$(call configure,release)
+	@$(call compile,release) --target livebed
+
+all: ## the program, its tests and its benchmarks
+	@tools/install-dependencies test
+	@$(call configure,release)
+	@$(call compile,release)
+
+test: ## all tests
+	@./test
+
+run: ## the paper's case and its report
+	@./run
+
+bench: all ## the benchmarks
+	@for program in build/bench_*; do [ ! -x $$program ] || $$program || exit 1; done
+
+validate: all ## the comparisons with known solutions
+	@ctest --preset release --output-on-failure -R '^verification\.'
+
+check: format-check ## what .ci/run checks without compiling
+	@tools/check-includes
+
+format: ## let clang-format rewrite the sources
+	@$(sources) -exec clang-format -i {} +
+
+format-check: ## are the sources formatted?
+	@$(sources) -exec clang-format --dry-run --Werror {} +
+
+sanitize: ## all tests under the address and undefined-behaviour sanitizers
+	@tools/install-dependencies test
+	@$(call configure,sanitizers)
+	@$(call compile,sanitizers)
+	@ctest --preset sanitizers -j2
+
+clean: ## remove the build folders of the presets
+	@rm -rf build build-debug build-sanitizers build-clang
