@@ -34,6 +34,31 @@ double ordered_sum(int begin, int end, std::vector<double>& scratch, Item&& item
   return sum;
 }
 
+/// Inner loop that the compiler may turn into vector instructions: calls of body(k) must not depend on one another.
+template <class Body>
+inline void vector_loop(int begin, int end, Body&& body) {
+#pragma omp simd
+  for (int k = begin; k < end; ++k) body(k);
+}
+
+/// Sum of term(k) with vector instructions.  The order of additions is fixed by the binary, not by the data or threads.
+template <class Term>
+inline double vector_sum(int begin, int end, Term&& term) {
+  double sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (int k = begin; k < end; ++k) sum += term(k);
+  return sum;
+}
+
+/// Largest term(k) with vector instructions, at least `lowest`.
+template <class Term>
+inline double vector_largest(int begin, int end, double lowest, Term&& term) {
+  double result = lowest;
+#pragma omp simd reduction(max : result)
+  for (int k = begin; k < end; ++k) result = term(k) > result ? term(k) : result;
+  return result;
+}
+
 /// Largest item(k) over [begin, end); lowest when the range is empty.
 template <class Item>
 double largest(int begin, int end, std::vector<double>& scratch, double lowest, Item&& item) {

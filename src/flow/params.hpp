@@ -8,6 +8,9 @@ enum class Closure { laminar, k_epsilon };
 /// hybrid: central below a cell Peclet number of 2, upwind above (the paper).  bounded: second order with a limiter.
 enum class Convection { hybrid, bounded };
 
+/// How pressure and velocity are brought together.  projection: incremental pressure correction, one solve a step.
+enum class Algorithm { projection };
+
 /// What a solid surface does to the flow.  rough and smooth are wall functions (Eq. 9-12 of the paper with a rough or a
 /// smooth log law); no_slip resolves the viscous stress; slip has none.
 enum class Wall { rough, smooth, no_slip, slip };
@@ -51,6 +54,7 @@ struct Params {
   double viscosity = 1e-6;  ///< nu [m2/s]
   Closure closure = Closure::k_epsilon;
   Convection convection = Convection::bounded;
+  Algorithm algorithm = Algorithm::projection;
   Wall floor = Wall::rough;
   double floor_roughness = 0;  ///< ks [m]
   double courant = 0.8;        ///< target of the adaptive step [-]
