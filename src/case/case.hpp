@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "coupling/params.hpp"
 #include "flow/params.hpp"
@@ -8,11 +11,12 @@
 namespace livebed::casefile {
 
 struct TimeParams {
-  double end = 7;               ///< last time [s]; t = 0 is the release of the grains
-  double spin_up = 2;           ///< flow on the fixed bed before that [s]
-  bool stop_at_equilibrium = false;   ///< end as soon as S/D is steady
-  double equilibrium_change = 0.02;   ///< S/D steady: its range over equilibrium_window stays below this [-]
-  double equilibrium_window = 2;      ///< [T], T the scour time scale
+  double end = 7;                    ///< last time [s]; t = 0 is the release of the grains
+  double end_over_T = 0;             ///< the same over the scour time scale T [-]; 0 without a time scale
+  double spin_up = 2;                ///< flow on the fixed bed before that [s]
+  bool stop_at_equilibrium = false;  ///< end as soon as S/D is steady
+  double equilibrium_change = 0.02;  ///< S/D steady: its range over equilibrium_window stays below this [-]
+  double equilibrium_window = 2;     ///< [T], T the scour time scale
 };
 
 struct OutputParams {
@@ -22,7 +26,7 @@ struct OutputParams {
   double checkpoint_every = 1;  ///< [s] of simulated time
 };
 
-/// One resolved case: everything a run needs, in SI units, derived numbers filled in.
+/// One resolved case: everything a run needs, in SI units, derived numbers filled in (check.hpp).
 struct Case {
   std::string title;
   std::string preset = "livebed";
@@ -31,7 +35,11 @@ struct Case {
   coupling::Params coupling;
   TimeParams time;
   OutputParams output;
-  double bed_thickness = 0.05;  ///< [m], nominal level of the bed; 0 when the case gives the count alone
+  double bed_thickness = 0.05;  ///< [m], nominal level of the bed: the run measures the true one after the packing
+
+  /// Where one key can stand for another (current.theta or current.mean_speed, ...): the ones the case was given by.
+  std::vector<std::string> given;
+  bool is_given(std::string_view key) const { return std::find(given.begin(), given.end(), key) != given.end(); }
 
   // derived
   double theta = 0;       ///< nominal Shields parameter of the approaching current [-]

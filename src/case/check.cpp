@@ -1,0 +1,264 @@
+#include "case/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "base/fault.hpp"
+#include "base/math.hpp"
+#include "flow/profiles.hpp"
+#include "grains/laws.hpp"
+
+namespace livebed::casefile {
+namespace {
+
+/// Mean of the squared diameter over d^2 when diameters are spread uniformly by +-spread.
+double mean_square_of_spread(double spread) { return 1 + base::square(spread) / 3; }
+
+double specific_density(const Case& c) { return c.grains.density / c.flow.density; }
+
+/// The log law that turns the depth mean of the current into its shear velocity: smooth when asked for, else rough.
+flow::Profile log_law_of(flow::Profile profile) {
+  return profile == flow::Profile::smooth ? flow::Profile::smooth : flow::Profile::rough;
+}
+
+void derive_bed(Case& c) {
+  const grains::Params& g = c.grains;
+  if (c.is_given("bed.count"))
+    c.bed_thickness = thickness_of(g.count, g.length, g.diameter, g.spread);
+  else
+    c.grains.count = static_cast<int>(
+        std::lround(std::min(2.0 * most_grains, count_for(c.bed_thickness, g.length, g.diameter, g.spread))));
+}
+
+void derive_current(Case& c) {
+  flow::CurrentParams& current = c.flow.current;
+  const double ks = roughness_over_diameter * c.grains.diameter;
+  current.bed_level = c.bed_thickness;
+  if (current.roughness == 0 && current.profile != flow::Profile::smooth) current.roughness = ks;
+  if (c.flow.floor_roughness == 0 && c.flow.floor == flow::Wall::rough) c.flow.floor_roughness = ks;
+
+  const flow::Profile law = log_law_of(current.profile);
+  const double depth = c.flow.mesh.height - current.bed_level;
+  const double s = specific_density(c), g = c.grains.gravity, d = c.grains.diameter, nu = c.flow.viscosity;
+  if (c.is_given("current.theta")) current.shear_velocity = flow::shear_velocity_from_shields(c.theta, s, g, d);
+  if (c.is_given("current.mean_speed"))
+    current.shear_velocity = flow::shear_velocity_from_mean(law, current.mean_speed, depth, current.roughness, nu);
+  else
+    current.mean_speed = flow::depth_mean(depth, current.shear_velocity,
+                                          flow::zero_level(law, current.roughness, current.shear_velocity, nu));
+  if (!c.is_given("current.theta")) c.theta = flow::shields(current.shear_velocity, s, g, d);
+}
+
+void derive_times(Case& c) {
+  const bool scours = c.flow.pipe.present && c.grains.count > 0;
+  c.time_scale =
+      scours ? scour_time_scale(c.flow.pipe.diameter, c.grains.diameter, specific_density(c), c.grains.gravity, c.theta)
+             : 0;
+  if (c.is_given("time.end_over_T"))
+    c.time.end = c.time.end_over_T * c.time_scale;
+  else
+    c.time.end_over_T = scours ? c.time.end / c.time_scale : 0;
+}
+
+/// One combination of keys under test: its faults are told at the first of the keys that was given.
+class Combination {
+public:
+  Combination(const Sources& sources, Faults& faults, std::initializer_list<std::string_view> keys)
+      : sources_(sources), faults_(faults), keys_(keys) {}
+
+  /// Notes a fault when it holds and none of the keys is bad already.
+  template <class... Args>
+  void fault_if(bool wrong, fmt::format_string<Args...> text, Args&&... args) const {
+    if (!wrong) return;
+    for (const std::string_view key : keys_)
+      if (sources_.bad.contains(key)) return;
+    faults_.add(place(), text, std::forward<Args>(args)...);
+  }
+
+private:
+  Origin place() const {
+    for (const std::string_view key : keys_) {
+      const auto found = sources_.origin.find(key);
+      if (found != sources_.origin.end() && found->second.kind != Origin::Kind::preset) return found->second;
+    }
+    return {};
+  }
+  const Sources& sources_;
+  Faults& faults_;
+  std::vector<std::string_view> keys_;
+};
+
+/// Window of fine cells along one direction.
+void check_window(const Combination& keys, const char* from_name, const char* to_name, const char* across_name,
+                  double from, double to, double across) {
+  keys.fault_if(from != 0 && to <= from, "{} = {} m is not left of {} = {} m", from_name, from, to_name, to);
+  keys.fault_if(to > across, "{} = {} m is outside the box, {} = {} m", to_name, to, across_name, across);
+}
+
+}  // namespace
+
+double thickness_of(double count, double length, double diameter, double spread) {
+  const double area = base::pi / 4 * base::square(diameter) * mean_square_of_spread(spread);
+  return count * area / (packing_fraction * length);
+}
+
+double count_for(double thickness, double length, double diameter, double spread) {
+  return thickness / thickness_of(1, length, diameter, spread);
+}
+
+double scour_time_scale(double D, double d, double s, double g, double theta) {
+  return base::square(D) / std::sqrt(g * (s - 1) * base::cube(d)) * std::pow(theta, -5.0 / 3.0) / 50;
+}
+
+void derive(Case& c) {
+  c.grains.fluid_density = c.flow.density;
+  c.grains.length = c.flow.mesh.length;
+  derive_bed(c);
+  derive_current(c);
+  flow::PipeParams& pipe = c.flow.pipe;
+  pipe.y = c.bed_thickness + (pipe.gap_ratio + 0.5) * pipe.diameter;
+  derive_times(c);
+  if (c.is_given("contact.damping") && c.grains.damping == 0) c.grains.restitution = 1;
+  c.grains = grains::derive(c.grains);
+}
+
+void check(const Case& c, const Sources& sources, Faults& faults) {
+  const auto keys = [&](std::initializer_list<std::string_view> names) { return Combination(sources, faults, names); };
+  const flow::MeshParams& mesh = c.flow.mesh;
+  const flow::PipeParams& pipe = c.flow.pipe;
+  const flow::CurrentParams& current = c.flow.current;
+  const double D = pipe.diameter, d = c.grains.diameter, bed = c.bed_thickness;
+
+  // the box and its cells
+  keys({"mesh.cell_x", "mesh.length"})
+      .fault_if(mesh.cell_x > mesh.length / 4, "mesh.cell_x = {} m leaves fewer than 4 cells in mesh.length = {} m",
+                mesh.cell_x, mesh.length);
+  keys({"mesh.cell_y", "mesh.height"})
+      .fault_if(mesh.cell_y > mesh.height / 4, "mesh.cell_y = {} m leaves fewer than 4 cells in mesh.height = {} m",
+                mesh.cell_y, mesh.height);
+  check_window(keys({"mesh.fine_x_to", "mesh.fine_x_from", "mesh.length"}), "mesh.fine_x_from", "mesh.fine_x_to",
+               "mesh.length", mesh.fine_x_from, mesh.fine_x_to, mesh.length);
+  check_window(keys({"mesh.fine_y_to", "mesh.fine_y_from", "mesh.height"}), "mesh.fine_y_from", "mesh.fine_y_to",
+               "mesh.height", mesh.fine_y_from, mesh.fine_y_to, mesh.height);
+
+  // grains and bed
+  keys({"grains.density", "flow.density"})
+      .fault_if(c.grains.density <= c.flow.density,
+                "grains.density = {} kg/m3 does not sink in water of flow.density = {} kg/m3", c.grains.density,
+                c.flow.density);
+  keys({"grains.diameter", "mesh.length"})
+      .fault_if(d > mesh.length / 10, "grains.diameter = {} m leaves fewer than 10 grains in mesh.length = {} m", d,
+                mesh.length);
+  keys({"bed.thickness", "bed.count", "mesh.height", "grains.diameter", "grains.spread", "mesh.length"})
+      .fault_if(bed >= mesh.height, "the bed is {:.4g} m thick and leaves no water in mesh.height = {} m", bed,
+                mesh.height);
+  keys({"bed.thickness", "grains.diameter"})
+      .fault_if(c.is_given("bed.thickness") && bed > 0 && bed < d,
+                "bed.thickness = {} m is less than one grain, grains.diameter = {} m; 0 is a case without grains", bed,
+                d);
+  keys({"bed.thickness", "grains.diameter", "mesh.length"})
+      .fault_if(c.grains.count > most_grains, "bed.thickness = {} m needs more than {} grains of {} m", bed,
+                most_grains, d);
+  keys({"current.roughness", "mesh.height", "bed.thickness", "bed.count", "grains.diameter"})
+      .fault_if(bed < mesh.height && current.roughness > mesh.height - bed,
+                "current.roughness = {} m is larger than the water is deep, {:.4g} m", current.roughness,
+                mesh.height - bed);
+  keys({"coupling.kernel", "grains.diameter", "mesh.cell_x", "mesh.cell_y"})
+      .fault_if(
+          c.coupling.mode != coupling::Mode::none && c.coupling.kernel * d < 0.5 * std::max(mesh.cell_x, mesh.cell_y),
+          "coupling.kernel = {} reaches {:.4g} m, less than half a cell of {} m: give at least {:.3g}",
+          c.coupling.kernel, c.coupling.kernel * d, std::max(mesh.cell_x, mesh.cell_y),
+          0.5 * std::max(mesh.cell_x, mesh.cell_y) / d);
+
+  // the pipe
+  if (pipe.present) {
+    keys({"pipe.x", "pipe.diameter", "mesh.length"})
+        .fault_if(pipe.x - D / 2 <= 0 || pipe.x + D / 2 >= mesh.length,
+                  "pipe.x = {} m with pipe.diameter = {} m reaches through {}", pipe.x, D,
+                  pipe.x - D / 2 <= 0 ? "the inlet, x = 0" : fmt::format("the outlet, x = {} m", mesh.length));
+    const auto height = keys({"pipe.gap_ratio", "pipe.diameter", "mesh.height", "bed.thickness", "bed.count",
+                              "grains.diameter", "grains.spread", "mesh.length"});
+    height.fault_if(bed < mesh.height && pipe.y + D / 2 >= mesh.height,
+                    "pipe.gap_ratio = {} lifts the top of the pipe to {:.4g} m, above mesh.height = {} m",
+                    pipe.gap_ratio, pipe.y + D / 2, mesh.height);
+    height.fault_if(pipe.y - D / 2 < -1e-9 * D,
+                    "pipe.gap_ratio = {} sinks the pipe {:.4g} m below the floor of the box; the bed is {:.4g} m thick",
+                    pipe.gap_ratio, D / 2 - pipe.y, bed);
+    keys({"mesh.cell_x", "pipe.diameter"})
+        .fault_if(D < least_cells_across_pipe * mesh.cell_x * (1 - 1e-9),
+                  "mesh.cell_x = {} m gives {:.3g} cells across the pipe; {} are needed: at most {:.4g} m", mesh.cell_x,
+                  D / mesh.cell_x, least_cells_across_pipe, D / least_cells_across_pipe);
+    keys({"mesh.cell_y", "pipe.diameter"})
+        .fault_if(D < least_cells_across_pipe * mesh.cell_y * (1 - 1e-9),
+                  "mesh.cell_y = {} m gives {:.3g} cells across the pipe; {} are needed: at most {:.4g} m", mesh.cell_y,
+                  D / mesh.cell_y, least_cells_across_pipe, D / least_cells_across_pipe);
+    keys({"mesh.fine_x_to", "mesh.fine_x_from", "pipe.x", "pipe.diameter", "mesh.growth"})
+        .fault_if(mesh.growth > 1 && mesh.fine_x_to > mesh.fine_x_from &&
+                      (pipe.x - D / 2 < mesh.fine_x_from || pipe.x + D / 2 > mesh.fine_x_to),
+                  "the pipe, {:.4g} m to {:.4g} m, leaves the fine window mesh.fine_x_from = {} m to mesh.fine_x_to = "
+                  "{} m",
+                  pipe.x - D / 2, pipe.x + D / 2, mesh.fine_x_from, mesh.fine_x_to);
+    keys({"mesh.fine_y_to", "mesh.fine_y_from", "pipe.gap_ratio", "pipe.diameter", "mesh.growth", "bed.thickness",
+          "bed.count"})
+        .fault_if(mesh.growth > 1 && mesh.fine_y_to > mesh.fine_y_from &&
+                      (pipe.y - D / 2 < mesh.fine_y_from || pipe.y + D / 2 > mesh.fine_y_to),
+                  "the pipe, {:.4g} m to {:.4g} m, leaves the fine window mesh.fine_y_from = {} m to mesh.fine_y_to = "
+                  "{} m",
+                  pipe.y - D / 2, pipe.y + D / 2, mesh.fine_y_from, mesh.fine_y_to);
+    keys({"pipe.wall", "pipe.roughness"})
+        .fault_if(pipe.wall == flow::Wall::rough && pipe.roughness == 0,
+                  "pipe.wall = \"rough\" needs pipe.roughness, the ks of the pipe");
+    keys({"pipe.roughness", "pipe.wall"})
+        .fault_if(pipe.wall != flow::Wall::rough && pipe.roughness > 0,
+                  "pipe.roughness = {} m contradicts pipe.wall, which is not \"rough\"", pipe.roughness);
+  }
+
+  // water
+  keys({"flow.floor_roughness", "flow.floor"})
+      .fault_if(c.flow.floor != flow::Wall::rough && c.flow.floor_roughness > 0,
+                "flow.floor_roughness = {} m contradicts flow.floor, which is not \"rough\"", c.flow.floor_roughness);
+  keys({"current.roughness", "current.profile"})
+      .fault_if(current.profile == flow::Profile::smooth && current.roughness > 0,
+                "current.roughness = {} m contradicts current.profile = \"smooth\"", current.roughness);
+
+  // time
+  keys({"flow.max_step", "time.grain_step"})
+      .fault_if(c.flow.max_step < c.grains.step, "flow.max_step = {} s is shorter than the grains' step, {:.4g} s",
+                c.flow.max_step, c.grains.step);
+  keys({"time.end_over_T", "pipe.present", "bed.count", "bed.thickness"})
+      .fault_if(
+          c.is_given("time.end_over_T") && c.time_scale == 0,
+          "time.end_over_T = {} needs a pipe and grains: without them there is no scour time scale; give time.end",
+          c.time.end_over_T);
+  keys({"time.stop_at_equilibrium", "pipe.present", "bed.count", "bed.thickness"})
+      .fault_if(c.time.stop_at_equilibrium && c.time_scale == 0,
+                "time.stop_at_equilibrium needs a pipe and grains: without them nothing is scoured");
+}
+
+double static_overlap(const Case& c) {
+  const double buoyant_weight =
+      (c.grains.density - c.flow.density) * c.grains.gravity * base::sphere_volume(c.grains.diameter);
+  const double layers = c.bed_thickness / c.grains.diameter;
+  return layers * buoyant_weight / (c.grains.stiffness * c.grains.diameter);
+}
+
+std::vector<std::string> notes(const Case& c) {
+  std::vector<std::string> all;
+  if (c.grains.count > 0 && c.grains.stiffness > 0 && static_overlap(c) > overlap_to_note)
+    all.push_back(
+        fmt::format("the lowest grains overlap by {:.2g} d under the weight of the bed: raise "
+                    "contact.stiffness or lower time.grain_step",
+                    static_overlap(c)));
+  if (c.is_given("contact.damping") && c.grains.damping > 0.5 && c.grains.steps_per_contact < 40)
+    all.push_back(
+        fmt::format("contact.damping = {} with contact.steps = {} may never come to rest in a dense bed: "
+                    "give 40 steps or more",
+                    c.grains.damping, c.grains.steps_per_contact));
+  if (c.flow.pipe.present && c.grains.count > 0 && c.bed_thickness < 1.5 * c.flow.pipe.diameter)
+    all.push_back(fmt::format("the bed is {:.2g} D thick: a hole of 0.9 D comes near the floor of the box",
+                              c.bed_thickness / c.flow.pipe.diameter));
+  return all;
+}
+
+}  // namespace livebed::casefile

@@ -1,0 +1,49 @@
+#pragma once
+#include <map>
+#include <set>
+#include <string>
+
+#include "case/case.hpp"
+#include "case/faults.hpp"
+
+/// Physics across keys: what follows from the keys given, and which combinations make no sense.
+namespace livebed::casefile {
+
+/// What the reader knows about the keys besides their values.
+struct Sources {
+  std::map<std::string, Origin, std::less<>> origin;  ///< of every key that was given
+  std::set<std::string, std::less<>> bad;             ///< keys whose value is missing or a fault already
+};
+
+/// 2D packing fraction of a settled bed of spheres in a plane; turns the thickness of a bed into a number of grains and
+/// back (6240 grains of 2 mm over 0.5 m: 0.048 m).  Nominal: the run measures the level after the packing.
+inline constexpr double packing_fraction = 0.82;
+/// Grain roughness of a flat bed, ks = 2.5 d.
+inline constexpr double roughness_over_diameter = 2.5;
+inline constexpr int most_grains = 100'000'000;
+/// Fewer cells than this across the pipe cannot turn the flow round it.
+inline constexpr double least_cells_across_pipe = 8;
+/// A larger estimate of the static overlap at the bottom of the bed over d earns a note: the bed would be too soft.
+inline constexpr double overlap_to_note = 0.01;
+
+/// Nominal thickness [m] of a settled bed of n grains over a length, and the count for a thickness.
+double thickness_of(double count, double length, double diameter, double spread);
+double count_for(double thickness, double length, double diameter, double spread);
+
+/// Scour time scale T = D^2/sqrt(g (s-1) d^3) theta^(-5/3)/50 [s].
+double scour_time_scale(double D, double d, double s, double g, double theta);
+
+/// Fills every derived number of a case whose given keys are set; c.given says which of the alternatives they are.
+void derive(Case& c);
+
+/// Adds a fault for every combination of keys that makes no sense.  Combinations with a key that is bad already are
+/// passed over.
+void check(const Case& c, const Sources& sources, Faults& faults);
+
+/// Static overlap of the lowest grains under the submerged weight of the bed, over d [-].
+double static_overlap(const Case& c);
+
+/// What is allowed but deserves a second look, one sentence each.
+std::vector<std::string> notes(const Case& c);
+
+}  // namespace livebed::casefile
