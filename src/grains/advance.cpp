@@ -1,0 +1,76 @@
+#include "grains/advance.hpp"
+
+#include <numeric>
+
+#include "base/fault.hpp"
+
+namespace livebed::grains {
+
+using base::Exit;
+using base::fail;
+
+namespace {
+
+/// Sorts, lists, and copies the grains into the force loop's records; collects what the old records hold first.
+void renew(Bed& bed) {
+  bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
+  try {
+    rebuild(bed.state, bed.contacts, bed.scratch, reach_of(bed.params), bed.pipe);
+  } catch (const base::Fault& fault) {
+    fail(fault.code(), "grain step {} (t = {} s of grain time): {}", bed.steps,
+         static_cast<double>(bed.steps) * bed.params.step, fault.what());
+  }
+  fill_records(bed.params, bed.state, bed.contacts, bed.records);
+}
+
+}  // namespace
+
+Bed make_bed(const Params& complete) {
+  Bed bed;
+  bed.params = complete;
+  const int n = complete.count;
+  State& s = bed.state;
+  for (Array* a : {&s.x, &s.y, &s.u, &s.v, &s.omega, &s.fluid.u, &s.fluid.v, &s.fluid.beta, &s.fluid.fx, &s.fluid.fy,
+                   &s.impulse_x, &s.impulse_y}) {
+    a->assign(n, 0.0);
+  }
+  s.diameter.assign(n, complete.diameter);
+  s.id.resize(n);
+  std::iota(s.id.begin(), s.id.end(), 0);
+  return bed;
+}
+
+void check_count(const Bed& bed) {
+  const std::size_t n = static_cast<std::size_t>(bed.params.count);
+  const State& s = bed.state;
+  for (const Array* a : {&s.x, &s.y, &s.u, &s.v, &s.omega, &s.diameter, &s.fluid.u, &s.fluid.v, &s.fluid.beta,
+                         &s.fluid.fx, &s.fluid.fy, &s.impulse_x, &s.impulse_y}) {
+    if (a->size() != n) fail(Exit::internal, "an array of the grains has {} entries for {} grains", a->size(), n);
+  }
+  if (s.id.size() != n) fail(Exit::internal, "the grains have {} ids for {} grains", s.id.size(), n);
+  std::vector<char> seen(n, 0);
+  for (const std::int32_t id : s.id) {
+    if (id < 0 || static_cast<std::size_t>(id) >= n || seen[id]) {
+      fail(Exit::internal, "grain id {} is doubled or outside 0 to {}: a grain was lost", id, n - 1);
+    }
+    seen[id] = 1;
+  }
+}
+
+void advance(Bed& bed, int steps) {
+  check_count(bed);
+  const Sweep constants = make_sweep(bed.params, bed.pipe);
+  if (!lists_hold(bed.state, bed.contacts, constants.reach, bed.pipe)) {
+    renew(bed);
+  } else {
+    fill_records(bed.params, bed.state, bed.contacts, bed.records);
+  }
+  for (int step = 0; step < steps; ++step) {
+    const bool held = sweep(constants, bed.state, bed.contacts, bed.records);
+    ++bed.steps;
+    if (!held) renew(bed);
+  }
+  bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
+}
+
+}  // namespace livebed::grains

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+
+#include "base/vec2.hpp"
+#include "grains/contact.hpp"
+#include "grains/neighbours.hpp"
+#include "grains/params.hpp"
+#include "grains/state.hpp"
+
+namespace livebed::grains {
+
+/// The grains, the walls around them and what their contacts remember.
+struct Bed {
+  Params params;  ///< complete (derive)
+  State state;
+  Circle pipe;
+  Contacts contacts;
+  base::Vec2 pipe_impulse;  ///< what the grains gave the pipe since the last reset [N s]
+  std::int64_t steps = 0;   ///< done so far
+
+  // Filled anew by every call of advance; no part of a checkpoint.
+  Records records;
+  ListScratch scratch;
+};
+
+/// A bed of `count` grains at rest with every array of the right length: diameter d, all at the origin, no fluid.
+Bed make_bed(const Params& complete);
+
+/// Moves the grains by `steps` steps of params.step in the fluid forces of state.fluid, which stay as they are.  The
+/// order of the grains may change: they are sorted whenever the lists are rebuilt.  The same bits for any number of
+/// threads.  Throws Fault (diverged) naming the grain, its place and the step when a number is not finite or a grain
+/// has left the box, Fault (internal) when a grain is missing or doubled.
+void advance(Bed& bed, int steps);
+
+/// Throws Fault (internal) unless every array holds params.count grains and each id from 0 to count - 1 occurs once.
+void check_count(const Bed& bed);
+
+/// Calls visit(name, array) for every array a checkpoint must hold (doubles and integers), State and Contacts alike, in
+/// a fixed order.  With these, Contacts::pipe_built and ::rebuilds, pipe_impulse and steps, a bed goes on with the same
+/// bits.
+template <class BedLike, class Visit>
+void each_array(BedLike& bed, Visit&& visit) {
+  auto& s = bed.state;
+  auto& c = bed.contacts;
+  visit("x", s.x), visit("y", s.y), visit("u", s.u), visit("v", s.v), visit("omega", s.omega);
+  visit("diameter", s.diameter), visit("id", s.id);
+  visit("fluid_u", s.fluid.u), visit("fluid_v", s.fluid.v), visit("fluid_beta", s.fluid.beta);
+  visit("fluid_fx", s.fluid.fx), visit("fluid_fy", s.fluid.fy);
+  visit("impulse_x", s.impulse_x), visit("impulse_y", s.impulse_y);
+  visit("list_first", c.first), visit("list_neighbour", c.neighbour), visit("list_spring", c.spring);
+  visit("floor_spring", c.wall_spring[slot_floor]), visit("floor_odd_spring", c.wall_spring[slot_floor_odd]);
+  visit("pipe_spring", c.wall_spring[slot_pipe]), visit("list_walls", c.walls);
+  visit("x_built", c.x_built), visit("y_built", c.y_built);
+}
+
+}  // namespace livebed::grains

@@ -1,0 +1,60 @@
+#pragma once
+#include <vector>
+
+#include "base/vec2.hpp"
+#include "grains/laws.hpp"
+#include "grains/neighbours.hpp"
+#include "grains/state.hpp"
+
+namespace livebed::grains {
+
+/// What a grain shows to its neighbours, packed so that one load fetches it.
+struct Place {
+  double x, y;  ///< centre [m]
+  double r;     ///< radius [m]
+  double w;     ///< speed of its surface from its spin, omega r [m/s]; a stored product, so that w_i + w_j = w_j + w_i
+};
+struct Motion {
+  double u, v;  ///< [m/s]
+};
+
+/// Copies of the grains in the form the force loop reads.  Two sets: a step reads one and writes the other, so that no
+/// slice sees a neighbour that has already moved.
+struct Records {
+  base::AlignedVector<Place> place, place_next;
+  base::AlignedVector<Motion> motion, motion_next;
+  Array kick;                            ///< dt / m [s/kg]
+  Array spin_kick;                       ///< dt r / I [s/(kg m)]
+  std::vector<std::uint8_t> moved;       ///< of each block of slices: some grain left its half skin
+  Array pipe_impulse_x, pipe_impulse_y;  ///< of each slice since the last collection [N s]
+};
+
+/// The constants of a step.
+struct Sweep {
+  Contact pair, wall;
+  Reach reach;
+  Floor floor;
+  double floor_spacing;  ///< between the fixed grains of the floor [m]
+  double gravity;        ///< of a submerged grain, downwards [m/s2]
+  double dt;             ///< [s]
+  Circle pipe;
+};
+
+/// Constants from complete parameters (derive).
+Sweep make_sweep(const Params& p, const Circle& pipe);
+
+/// Fills the records from the state and clears the pipe's impulse.
+void fill_records(const Params& p, const State& s, const Contacts& c, Records& r);
+
+/// One step of every grain, forces and motion in one pass over the slices (symplectic: velocities, then positions):
+///   1  F <- contacts with neighbours, floor and pipe; histories forward
+///   2  (m + dt beta) u <- m u + dt (F + weight + f + beta U); the drag is implicit;  impulse += dt (f + beta (U - u))
+///   3  spin <- spin + dt r sum f_s / I;  x <- x + dt u, wrapped into [0, length)
+/// Returns false when some grain has moved more than half a skin (or nowhere finite), so that the lists must be rebuilt
+/// before the next step.
+bool sweep(const Sweep& k, State& s, Contacts& c, Records& r);
+
+/// What the grains gave the pipe since the records were filled [N s], summed in the order of the slices.
+base::Vec2 collect_pipe_impulse(Records& r);
+
+}  // namespace livebed::grains

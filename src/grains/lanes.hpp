@@ -1,0 +1,141 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#include <immintrin.h>
+#endif
+
+/// Eight grains at a time: a slice of the grain loop.  The laws are written once for `double` and for `Lanes`; this
+/// file is the only one that knows vector instructions, and each of them has a plain form beside it.
+namespace livebed::grains {
+
+inline constexpr int lanes = 8;
+using Lanes = double __attribute__((vector_size(64)));
+using Mask = std::int64_t __attribute__((vector_size(64)));  ///< a lane is -1 (true) or 0 (false)
+
+inline Lanes all_lanes(double a) { return Lanes{} + a; }
+
+/// Eight values from an array; the missing lanes of the last slice (`filled` < 8) become `rest`.
+inline Lanes load(const double* from, int filled, double rest = 0) {
+  Lanes a = all_lanes(rest);
+  if (filled == lanes) {
+    std::memcpy(&a, from, sizeof a);
+  } else {
+    std::memcpy(&a, from, sizeof(double) * static_cast<std::size_t>(filled));
+  }
+  return a;
+}
+
+inline void store(double* to, const Lanes& a, int filled) {
+  if (filled == lanes) {
+    std::memcpy(to, &a, sizeof a);
+  } else {
+    std::memcpy(to, &a, sizeof(double) * static_cast<std::size_t>(filled));
+  }
+}
+
+inline double select(bool which, double a, double b) { return which ? a : b; }
+inline Lanes select(const Mask& which, const Lanes& a, const Lanes& b) { return which ? a : b; }
+
+template <class Real>
+inline Real larger(const Real& a, const Real& b) {
+  return select(a > b, a, b);
+}
+template <class Real>
+inline Real smaller(const Real& a, const Real& b) {
+  return select(a < b, a, b);
+}
+
+inline Lanes root(const Lanes& a) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return (Lanes)_mm512_maskz_sqrt_pd(0xff, (__m512d)a);
+#else
+  double each[lanes];
+  std::memcpy(each, &a, sizeof a);
+  for (double& one : each) one = std::sqrt(one);
+  Lanes result;
+  std::memcpy(&result, each, sizeof a);
+  return result;
+#endif
+}
+
+inline bool any(const Mask& a) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return _mm512_movepi64_mask((__m512i)a) != 0;
+#else
+  std::int64_t each[lanes], some = 0;
+  std::memcpy(each, &a, sizeof a);
+  for (const std::int64_t one : each) some |= one;
+  return some != 0;
+#endif
+}
+
+inline double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
+
+using Four = double __attribute__((vector_size(32)));
+using Two = double __attribute__((vector_size(16)));
+
+/// Records of four doubles at eight places, turned into four lanes: a[f] holds field f of all eight.
+inline void load_fours(const double* records, const std::int32_t* at, Lanes a[4]) {
+  const auto record = [&](int l) {
+    Four one;
+    std::memcpy(&one, records + 4 * static_cast<std::ptrdiff_t>(at[l]), sizeof one);
+    return one;
+  };
+  const auto two = [&](int l) { return __builtin_shufflevector(record(l), record(l + 4), 0, 1, 2, 3, 4, 5, 6, 7); };
+  const Lanes p0 = two(0), p1 = two(1), p2 = two(2), p3 = two(3);
+  const Lanes even01 = __builtin_shufflevector(p0, p1, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes odd01 = __builtin_shufflevector(p0, p1, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes even23 = __builtin_shufflevector(p2, p3, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes odd23 = __builtin_shufflevector(p2, p3, 1, 9, 3, 11, 5, 13, 7, 15);
+  a[0] = __builtin_shufflevector(even01, even23, 0, 1, 8, 9, 4, 5, 12, 13);
+  a[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 8, 9, 4, 5, 12, 13);
+  a[2] = __builtin_shufflevector(even01, even23, 2, 3, 10, 11, 6, 7, 14, 15);
+  a[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/// The same for records of two doubles.
+inline void load_twos(const double* records, const std::int32_t* at, Lanes a[2]) {
+  const auto record = [&](int l) {
+    Two one;
+    std::memcpy(&one, records + 2 * static_cast<std::ptrdiff_t>(at[l]), sizeof one);
+    return one;
+  };
+  const auto two = [&](int l) { return __builtin_shufflevector(record(l), record(l + 2), 0, 1, 2, 3); };
+  const Lanes even = __builtin_shufflevector(two(0), two(4), 0, 1, 2, 3, 4, 5, 6, 7);
+  const Lanes odd = __builtin_shufflevector(two(1), two(5), 0, 1, 2, 3, 4, 5, 6, 7);
+  a[0] = __builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14);
+  a[1] = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
+}
+
+/// Eight consecutive records of four doubles from four lanes.
+inline void store_fours(double* records, const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+  const Lanes ab_even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes ab_odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes cd_even = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes cd_odd = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes r02 = __builtin_shufflevector(ab_even, cd_even, 0, 1, 8, 9, 2, 3, 10, 11);
+  const Lanes r13 = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 8, 9, 2, 3, 10, 11);
+  const Lanes r46 = __builtin_shufflevector(ab_even, cd_even, 4, 5, 12, 13, 6, 7, 14, 15);
+  const Lanes r57 = __builtin_shufflevector(ab_odd, cd_odd, 4, 5, 12, 13, 6, 7, 14, 15);
+  const Lanes r01 = __builtin_shufflevector(r02, r13, 0, 1, 2, 3, 8, 9, 10, 11);
+  const Lanes r23 = __builtin_shufflevector(r02, r13, 4, 5, 6, 7, 12, 13, 14, 15);
+  const Lanes r45 = __builtin_shufflevector(r46, r57, 0, 1, 2, 3, 8, 9, 10, 11);
+  const Lanes r67 = __builtin_shufflevector(r46, r57, 4, 5, 6, 7, 12, 13, 14, 15);
+  std::memcpy(records, &r01, sizeof r01);
+  std::memcpy(records + 8, &r23, sizeof r23);
+  std::memcpy(records + 16, &r45, sizeof r45);
+  std::memcpy(records + 24, &r67, sizeof r67);
+}
+
+/// Eight consecutive records of two doubles from two lanes.
+inline void store_twos(double* records, const Lanes& a, const Lanes& b) {
+  const Lanes low = __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+  const Lanes high = __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+  std::memcpy(records, &low, sizeof low);
+  std::memcpy(records + 8, &high, sizeof high);
+}
+
+}  // namespace livebed::grains

@@ -1,0 +1,84 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "grains/lanes.hpp"
+#include "grains/params.hpp"
+#include "grains/state.hpp"
+
+/// Who may touch whom until some grain has moved half a skin, and what each contact remembers.
+///
+/// Grains are sorted by columns of cells, so that eight consecutive ones, a slice, are close together.  Every pair
+/// stands in the lists of both its grains: a slice computes all forces on its grains by itself, and both sides of a
+/// contact go through the same arithmetic with the signs turned, so that their forces and histories are equal to the
+/// bit.
+namespace livebed::grains {
+
+/// Walls that the grains of a slice may touch; bits of Contacts::walls.
+enum Wall : std::uint8_t { wall_floor = 1, wall_pipe = 2 };
+
+/// Slots for what a contact with a wall remembers: a plane, or the even and the odd grains of a floor of grains; the
+/// pipe.
+enum WallSlot : int { slot_floor = 0, slot_floor_odd = 1, slot_pipe = 2, wall_slots = 3 };
+
+/// Lists and histories: everything beside State that a checkpoint must hold to go on with the same bits.
+struct Contacts {
+  std::vector<std::int32_t> first;              ///< slice k owns rows first[k] to first[k+1] of eight slots each
+  base::AlignedVector<std::int32_t> neighbour;  ///< the other grain, row by row; nobody() where a lane has no more
+  Array spring;                                 ///< e_s of the same slot [N]
+  std::array<Array, wall_slots> wall_spring;    ///< e_s of each grain with each wall [N]
+  std::vector<std::uint8_t> walls;              ///< of each slice, bits of Wall
+  Array x_built, y_built;                       ///< centres when the lists were built [m]
+  Circle pipe_built;                            ///< and the pipe
+  std::int64_t rebuilds = 0;
+
+  int slices() const { return static_cast<int>(walls.size()); }
+  bool built() const { return !first.empty(); }
+};
+
+/// Buffers of rebuild, kept so that a running simulation allocates nothing.
+struct ListScratch {
+  std::vector<std::int32_t> cell, cell_start, order, new_place, found, found_count;
+  std::vector<std::int32_t> first_before;
+  base::AlignedVector<std::int32_t> neighbour_before;
+  Array spring_before, values;
+  std::vector<std::int32_t> ids;
+};
+
+/// Pairs may touch when their centres are within gamma (r_i + r_j); the lists reach one skin further.
+struct Reach {
+  double length;          ///< period in x [m]
+  double gamma;           ///< [-]
+  double skin;            ///< [m]
+  double floor_diameter;  ///< of the fixed grains of the floor, 0 for a plane [m]
+};
+
+inline Reach reach_of(const Params& p) {
+  return {p.length, p.gamma, p.skin * p.diameter, p.floor == Floor::grains ? p.diameter : 0.0};
+}
+
+/// The index that stands for "no neighbour" among n grains: one past the last lane of the last slice.
+inline constexpr int nobody(int n) { return (n + lanes - 1) / lanes * lanes; }
+
+/// Shortest way from one x to another in the periodic box, for 0 <= x < length.  Odd in dx to the bit.
+template <class Real>
+inline Real nearest_image(const Real& dx, double length) {
+  const Real zero = Real{};
+  const Real back = select(dx > zero + 0.5 * length, zero - length, zero);
+  return dx + select(dx < zero - 0.5 * length, zero + length, back);
+}
+
+/// Sorts the grains, builds the lists for the present positions and carries every history over.  Throws Fault
+/// (diverged) for a grain that is not finite, outside the box or with more neighbours than space allows, (invalid case)
+/// for a box shorter than two reaches.
+void rebuild(State& state, Contacts& contacts, ListScratch& scratch, const Reach& reach, const Circle& pipe);
+
+/// True while the lists are complete: no grain and no pipe has moved more than half a skin since they were built.  Two
+/// grains outside each other's lists were then more than one skin apart and cannot have met.
+bool lists_hold(const State& state, const Contacts& contacts, const Reach& reach, const Circle& pipe);
+
+/// The neighbours of one grain in the order of its list.
+std::vector<int> neighbours_of(const State& state, const Contacts& contacts, int grain);
+
+}  // namespace livebed::grains

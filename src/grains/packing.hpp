@@ -1,0 +1,41 @@
+#pragma once
+#include <vector>
+
+#include "grains/advance.hpp"
+
+namespace livebed::grains {
+
+/// One look at a bed that comes to rest.
+struct SettleRow {
+  double time;        ///< since the grains were let go [s]
+  double mean_speed;  ///< [m/s]
+  double max_speed;   ///< [m/s]
+  double height;      ///< bed_height [m]
+};
+
+struct Packing {
+  Bed bed;
+  std::vector<SettleRow> convergence;
+};
+
+/// The grains of the paper's Sec. 4.3 before they are let go: rows of a square lattice that fill the length, a gap of
+/// lattice_gap d between the largest possible grains, seeded diameters (uniform over d (1 +- spread)) and seeded shifts
+/// of at most half the gap, which only break the symmetry.  Same seed, same bits.
+Bed lattice(const Params& given);
+
+/// Lets the grains of a bed come to rest under their submerged weight: first in a thick fluid, then, from where the bed
+/// is slow, in none.  Ends when the mean speed has stayed below settled_speed for ten looks in a row.  Throws Fault
+/// (stopped by limit) with the last speeds when settle_time passes before.  Fluid forces and impulses are zero
+/// afterwards.
+std::vector<SettleRow> settle(Bed& bed);
+
+/// lattice + settle.
+Packing pack(const Params& given);
+
+/// Brings the pipe to its place.  Grains bulge above the nominal bed by half a diameter or more and an embedded pipe
+/// meets many of them, so it starts above them and is lowered at `speed` [m/s], slow enough that they make way without
+/// knocks, in a thick fluid; then the bed settles again.  Returns the convergence of that.  Throws as settle does, and
+/// Fault (invalid case) when the pipe would reach through the floor.
+std::vector<SettleRow> place_pipe(Bed& bed, const Circle& target, double speed = 0.05);
+
+}  // namespace livebed::grains
