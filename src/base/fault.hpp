@@ -1,6 +1,5 @@
 #pragma once
 #include <fmt/format.h>
-
 #include <stdexcept>
 #include <string>
 
@@ -22,11 +21,11 @@ enum class Exit : int {
 /// Every error a user can meet: one sentence that says what, where, how much, what is allowed, what to do; and the exit
 /// code it ends the program with.
 class Fault : public std::runtime_error {
- public:
+public:
   Fault(Exit code, const std::string& message) : std::runtime_error(message), code_(code) {}
   Exit code() const { return code_; }
 
- private:
+private:
   Exit code_;
 };
 

@@ -10,7 +10,7 @@ namespace livebed::base {
 /// are padded so that row starts share one alignment.
 template <class T>
 class FieldOf {
- public:
+public:
   FieldOf() = default;
   FieldOf(int nx, int ny, int ghosts = 2, T value = T{})
       : nx_(nx),
@@ -38,7 +38,7 @@ class FieldOf {
   AlignedVector<T>& storage() { return data_; }
   const AlignedVector<T>& storage() const { return data_; }
 
- private:
+private:
   static constexpr int lane = 64 / sizeof(T);
   std::size_t index(int i, int j) const {
     assert(i >= -ghosts_ && i < nx_ + ghosts_ && j >= -ghosts_ && j < ny_ + ghosts_);

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-/// The only file that knows threads.  Loops hand out whole items (rows, slices, blocks) and sums are made of partial sums
-/// per item, added in the order of the items: the bits do not depend on the number of threads.
+/// The only file that knows threads.  Loops hand out whole items (rows, slices, blocks) and sums are made of partial
+/// sums per item, added in the order of the items: the bits do not depend on the number of threads.
 namespace livebed::base {
 
 /// Number of threads that parallel loops use; set once at start-up.  Throws Fault (command line) for n < 1.

@@ -3,21 +3,22 @@
 /// Constants, floors and tolerances of the flow: each has one name and this one home.
 namespace livebed::flow {
 
-inline constexpr double kappa = 0.41;          ///< von Karman (paper, below Eq. 8)
-inline constexpr double smooth_E = 9.0;        ///< smooth log law (Eq. 8)
-inline constexpr double rough_scale = 30.0;    ///< rough log law: U = u*/kappa ln(30 y/ks)
-inline constexpr double van_driest = 26.0;     ///< Eq. 10-11
+inline constexpr double kappa = 0.41;        ///< von Karman (paper, below Eq. 8)
+inline constexpr double smooth_E = 9.0;      ///< smooth log law (Eq. 8)
+inline constexpr double rough_scale = 30.0;  ///< rough log law: U = u*/kappa ln(30 y/ks)
+inline constexpr double van_driest = 26.0;   ///< Eq. 10-11
 
 /// Standard k-epsilon, Launder and Spalding (1974); the paper's Table 1.
 struct KEpsilon {
   double c_mu = 0.09, sigma_k = 1.0, sigma_epsilon = 1.3, c1 = 1.44, c2 = 1.92;
 };
-inline constexpr KEpsilon k_epsilon{};
+inline constexpr KEpsilon launder_spalding{};
 
-inline constexpr double k_floor = 1e-10;        ///< [m2/s2], water at rest; keeps k^2/epsilon defined
-inline constexpr double epsilon_floor = 1e-12;  ///< [m2/s3]; with k_floor: nut = 1e-9 m2/s, far below nu
+inline constexpr double k_floor = 1e-10;         ///< [m2/s2], water at rest; keeps k^2/epsilon defined
+inline constexpr double epsilon_floor = 1e-12;   ///< [m2/s3]; with k_floor: nut = 1e-9 m2/s, far below nu
 inline constexpr double nut_over_nu_most = 1e5;  ///< only hit by a start from rest, where epsilon is tiny and k not yet
 inline constexpr double log_argument_least = 2.718281828459045;  ///< y/z0 is held above e: the log law ends there
+inline constexpr double fixed_row = 1e14;       ///< factor that makes a row of a line system say c = given value
 inline constexpr double volume_least = 1e-6;    ///< cells with less open volume count as solid [-]
 inline constexpr double aperture_least = 1e-6;  ///< faces with less opening count as closed [-]
 

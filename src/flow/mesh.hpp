@@ -8,12 +8,12 @@ namespace livebed::flow {
 
 /// Staggered tensor-product grid with the pipe cut out of it.
 ///
-/// Cell (i,j), 0 <= i < nx, 0 <= j < ny, spans [x(i), x(i+1)] x [y(j), y(j+1)].  Scalars sit at the centre; u(i,j) on the
-/// cell's west face, v(i,j) on its south face.  Apertures are the open fractions of faces, volume that of the cell.
+/// Cell (i,j), 0 <= i < nx, 0 <= j < ny, spans [x(i), x(i+1)] x [y(j), y(j+1)].  Scalars sit at the centre; u(i,j) on
+/// the cell's west face, v(i,j) on its south face.  Apertures are the open fractions of faces, volume that of the cell.
 struct Mesh {
   int nx = 0, ny = 0;
-  std::vector<double> x, y;    ///< faces [m], nx+1 and ny+1
-  std::vector<double> xc, yc;  ///< centres [m], with two ghosts: centre_x(i) = xc[i+2]
+  std::vector<double> x, y;                ///< faces [m], nx+1 and ny+1
+  std::vector<double> xc, yc;              ///< centres [m], with two ghosts: centre_x(i) = xc[i+2]
   std::vector<double> dx_, dy_;            ///< widths [m], with two ghosts
   std::vector<double> dx_face_, dy_face_;  ///< distances of neighbouring centres [m], with two ghosts
 
@@ -37,8 +37,9 @@ struct Mesh {
   PipeParams pipe;  ///< where it is; pipe.present is false without one
 };
 
-/// Face positions of one direction: cells of width h in [fine_from, fine_to], growing by the ratio growth outside, scaled
-/// so that the whole [0, length] is filled exactly.  Throws Fault (invalid case) when length or h are not positive.
+/// Face positions of one direction: cells of width h in [fine_from, fine_to], growing by the ratio growth outside,
+/// scaled so that the whole [0, length] is filled exactly.  Throws Fault (invalid case) when length or h are not
+/// positive.
 std::vector<double> stretched_faces(double length, double h, double growth, double fine_from, double fine_to);
 
 /// The grid of the case with its pipe cut out.

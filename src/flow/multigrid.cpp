@@ -10,7 +10,7 @@ using base::vector_loop;
 
 namespace {
 
-constexpr int block_columns = 64;     // columns a thread takes at once; four vectors of floats
+constexpr int block_columns = 64;  // columns a thread takes at once; four vectors of floats
 constexpr int cells_worth_threads = 20000;
 constexpr float pivot_least = 1e-5f;  // of the diagonal: below it a line floats free (pure Neumann) and keeps 0
 
@@ -22,11 +22,12 @@ void over_blocks(int nm, int ny, Pass&& pass) {
                       [&](int k) { pass(k * block_columns, std::min(nm, (k + 1) * block_columns)); });
 }
 
-/// Solves all vertical lines of one colour: x = T^-1 (b + west_coupling x_west + east_coupling x_east).  `other` holds the
-/// columns of the other colour; shift says where they sit: F column m lies between C columns m-1 and m, C column m between
-/// F columns m and m+1.  A null `other` stands for zero.
-void solve_lines(const Columns<float>& pivot, const Columns<float>& slope, const Columns<float>& west, const Columns<float>& east,
-                 int coupling_shift, const Columns<float>& b, const Columns<float>* other, int shift, Columns<float>& x) {
+/// Solves all vertical lines of one colour: x = T^-1 (b + west_coupling x_west + east_coupling x_east).  `other` holds
+/// the columns of the other colour; shift says where they sit: F column m lies between C columns m-1 and m, C column m
+/// between F columns m and m+1.  A null `other` stands for zero.
+void solve_lines(const Columns<float>& pivot, const Columns<float>& slope, const Columns<float>& west,
+                 const Columns<float>& east, int coupling_shift, const Columns<float>& b, const Columns<float>* other,
+                 int shift, Columns<float>& x) {
   const int ny = x.ny;
   over_blocks(x.nm, ny, [&](int m0, int m1) {
     for (int j = 0; j < ny; ++j) {
@@ -75,8 +76,8 @@ Multigrid::Multigrid(int nx, int ny) {
 }
 
 void Multigrid::factor(Level& level) {
-  const auto one = [&](Columns<float>& pivot, Columns<float>& slope, const Columns<float>& north, const Columns<float>& extra,
-                       auto&& sideways) {
+  const auto one = [&](Columns<float>& pivot, Columns<float>& slope, const Columns<float>& north,
+                       const Columns<float>& extra, auto&& sideways) {
     over_blocks(pivot.nm, level.ny, [&](int m0, int m1) {
       for (int j = 0; j < level.ny; ++j) {
         for (int m = m0; m < m1; ++m) {
@@ -91,7 +92,8 @@ void Multigrid::factor(Level& level) {
     });
   };
   const Stencil<float>& a = level.a;
-  one(level.pivot.F, level.slope.F, a.north.F, a.extra.F, [&](int j, int m) { return a.west.row(j)[m] + a.east.row(j)[m]; });
+  one(level.pivot.F, level.slope.F, a.north.F, a.extra.F,
+      [&](int j, int m) { return a.west.row(j)[m] + a.east.row(j)[m]; });
   one(level.pivot.C, level.slope.C, a.north.C, a.extra.C,
       [&](int j, int m) { return a.east.row(j)[m] + a.west.row(j)[m + 1]; });
 }

@@ -5,10 +5,11 @@
 
 /// Multigrid that coarsens in x alone, with exact solves along vertical lines.
 ///
-/// The columns of a level are split into F (even) and C (odd); C columns are the next coarser level.  Both kinds are stored
-/// apart, so that a vertical line solve runs over many columns at once, in vector instructions.  As F columns touch only C
-/// columns, one V-cycle needs five line passes and no explicit interpolation: C solve, F solve, coarse correction of C,
-/// F solve, C solve.  Vertical lines make any stretching in y harmless; solid cells are rows with a unit diagonal.
+/// The columns of a level are split into F (even) and C (odd); C columns are the next coarser level.  Both kinds are
+/// stored apart, so that a vertical line solve runs over many columns at once, in vector instructions.  As F columns
+/// touch only C columns, one V-cycle needs five line passes and no explicit interpolation: C solve, F solve, coarse
+/// correction of C, F solve, C solve.  Vertical lines make any stretching in y harmless; solid cells are rows with a
+/// unit diagonal.
 namespace livebed::flow {
 
 /// Columns of one colour: nm columns x ny rows, one pad of columns on either side so that m-1 and m+1 may be read.
@@ -44,7 +45,7 @@ struct Stencil {
 };
 
 class Multigrid {
- public:
+public:
   Multigrid() = default;
   Multigrid(int nx, int ny);
 
@@ -54,7 +55,7 @@ class Multigrid {
   /// z = one V-cycle applied to r (zero start): symmetric, so it can precondition conjugate gradients.
   void apply(const Split<double>& r, Split<double>& z);
 
- private:
+private:
   struct Level {
     int nx = 0, ny = 0;
     Stencil<float> a;

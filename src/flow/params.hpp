@@ -21,11 +21,11 @@ enum class Profile { rough, smooth, developed, uniform };
 /// Tensor-product grid over [0, length] x [0, height]: cells of size cell_x, cell_y inside the fine window, growing
 /// outside it by the ratio growth from cell to cell (1 = uniform everywhere).
 struct MeshParams {
-  double length = 0.5;   ///< [m]
-  double height = 0.2;   ///< [m], water and bed
-  double cell_x = 0.0025;  ///< [m]
-  double cell_y = 0.0025;  ///< [m]
-  double growth = 1.0;     ///< [-]
+  double length = 0.5;                    ///< [m]
+  double height = 0.2;                    ///< [m], water and bed
+  double cell_x = 0.0025;                 ///< [m]
+  double cell_y = 0.0025;                 ///< [m]
+  double growth = 1.0;                    ///< [-]
   double fine_x_from = 0, fine_x_to = 0;  ///< [m], window of fine cells; the whole length when both are 0
   double fine_y_from = 0, fine_y_to = 0;  ///< [m], the whole height when both are 0
 };
@@ -37,7 +37,7 @@ struct PipeParams {
   double y = 0;            ///< centre above the floor [m]; derived from the bed level and gap_ratio
   double gap_ratio = 0;    ///< e/D [-], from the level of the bed to the pipe's lowest point; negative = embedded
   Wall wall = Wall::smooth;
-  double roughness = 0;    ///< ks [m] of the rough law
+  double roughness = 0;  ///< ks [m] of the rough law
 };
 
 /// The approaching current.
@@ -56,9 +56,9 @@ struct Params {
   Convection convection = Convection::bounded;
   Algorithm algorithm = Algorithm::projection;
   Wall floor = Wall::rough;
-  double floor_roughness = 0;  ///< ks [m]
-  double courant = 0.8;        ///< target of the adaptive step [-]
-  double max_step = 0.01;      ///< [s]
+  double floor_roughness = 0;        ///< ks [m]
+  double courant = 0.8;              ///< target of the adaptive step [-]
+  double max_step = 0.01;            ///< [s]
   double pressure_tolerance = 1e-6;  ///< residual after the solve over residual before it [-]
   int pressure_iterations = 100;     ///< most iterations before the solve counts as failed
   MeshParams mesh;

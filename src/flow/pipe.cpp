@@ -22,7 +22,8 @@ double open_length(double a, double b, double off, double r) {
 
 /// Integral of sqrt(r^2 - x^2) from 0 to x, |x| <= r.
 double half_segment(double x, double r) {
-  return 0.5 * (x * std::sqrt(std::max(0.0, square(r) - square(x))) + square(r) * std::asin(std::clamp(x / r, -1.0, 1.0)));
+  return 0.5 *
+         (x * std::sqrt(std::max(0.0, square(r) - square(x))) + square(r) * std::asin(std::clamp(x / r, -1.0, 1.0)));
 }
 
 /// Integral over x in [x0,x1] of min(y, sqrt(r^2-x^2)) for y >= 0: area under both the chord y and the circle.
@@ -44,7 +45,8 @@ double circle_in_rectangle(double x0, double x1, double y0, double y1, double r)
 }
 
 base::Vec2 wall_vector(const Mesh& m, int i, int j) {
-  return {(m.aperture_x(i + 1, j) - m.aperture_x(i, j)) * m.dy(j), (m.aperture_y(i, j + 1) - m.aperture_y(i, j)) * m.dx(i)};
+  return {(m.aperture_x(i + 1, j) - m.aperture_x(i, j)) * m.dy(j),
+          (m.aperture_y(i, j + 1) - m.aperture_y(i, j)) * m.dx(i)};
 }
 
 void cut_pipe(Mesh& m) {
@@ -80,14 +82,15 @@ void cut_pipe(Mesh& m) {
     for (int i = 0; i < m.nx; ++i) {
       if (m.volume(i, j) <= 0 || m.volume(i, j) >= 1) continue;
       m.wall_length(i, j) = base::norm(wall_vector(m, i, j));
-      // Distance of the fluid's centroid, sampled; a quarter of the cell at least, so that a sliver's wall friction stays
-      // that of its neighbours.
+      // Distance of the fluid's centroid, sampled; a quarter of the cell at least, so that a sliver's wall friction
+      // stays that of its neighbours.
       const int n = 8;
       double sum = 0;
       int inside = 0;
       for (int b = 0; b < n; ++b)
         for (int a = 0; a < n; ++a) {
-          const double away = std::hypot(m.x[i] + (a + 0.5) / n * m.dx(i) - cx, m.y[j] + (b + 0.5) / n * m.dy(j) - cy) - r;
+          const double away =
+              std::hypot(m.x[i] + (a + 0.5) / n * m.dx(i) - cx, m.y[j] + (b + 0.5) / n * m.dy(j) - cy) - r;
           if (away > 0) sum += away, ++inside;
         }
       m.wall_distance(i, j) = std::max(inside ? sum / inside : 0.0, 0.25 * std::min(m.dx(i), m.dy(j)));

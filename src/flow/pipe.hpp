@@ -12,8 +12,9 @@ void cut_pipe(Mesh& mesh);
 /// Area of the part of the rectangle [x0,x1] x [y0,y1] that lies inside the circle of radius r about the origin [m2].
 double circle_in_rectangle(double x0, double x1, double y0, double y1, double r);
 
-/// The pipe's surface inside cell (i,j) as a vector [m]: its length times the normal that points into the fluid.  By the
-/// divergence theorem it is the sum of the cell's open faces, so a uniform pressure gives no force on the closed circle.
+/// The pipe's surface inside cell (i,j) as a vector [m]: its length times the normal that points into the fluid.  By
+/// the divergence theorem it is the sum of the cell's open faces, so a uniform pressure gives no force on the closed
+/// circle.
 base::Vec2 wall_vector(const Mesh& mesh, int i, int j);
 
 }  // namespace livebed::flow

@@ -72,8 +72,8 @@ void PressureSolver::set_coefficients(const base::Field& c_x, const base::Field&
 
 void PressureSolver::apply_operator(const Split<double>& p, Split<double>& q) const {
   for_each_item(0, ny_, [&](int j) {
-    const auto colour = [&](const Columns<double>& diagonal, const Columns<double>& north, const double* w, const double* e,
-                            const Columns<double>& own, const double* other, Columns<double>& out) {
+    const auto colour = [&](const Columns<double>& diagonal, const Columns<double>& north, const double* w,
+                            const double* e, const Columns<double>& own, const double* other, Columns<double>& out) {
       const double *d = diagonal.row(j), *n = north.row(j), *s = north.row(j > 0 ? j - 1 : 0);
       const double *pj = own.row(j), *below = own.row(j > 0 ? j - 1 : 0), *above = own.row(j + 1 < ny_ ? j + 1 : j);
       const double south = j > 0 ? 1 : 0;  // the top row's north coefficient is 0 already

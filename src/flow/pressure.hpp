@@ -14,22 +14,22 @@ struct SolveReport {
 };
 
 /// Solves  sum over faces c_f (p_cell - p_neighbour) + c_boundary p_cell = b  by conjugate gradients with one multigrid
-/// cycle a step as preconditioner.  Cells without any open face keep 0.  Without a boundary coefficient the pressure floats:
-/// b must then sum to 0 (its mean is taken out) and the solution has mean 0.
+/// cycle a step as preconditioner.  Cells without any open face keep 0.  Without a boundary coefficient the pressure
+/// floats: b must then sum to 0 (its mean is taken out) and the solution has mean 0.
 class PressureSolver {
- public:
+public:
   PressureSolver() = default;
   PressureSolver(int nx, int ny);
 
-  /// c_x(i,j), c_y(i,j): coefficients of the west and south faces, i = 1..nx-1, j = 1..ny-1; c_boundary(i,j): of faces where
-  /// p is held at 0.
+  /// c_x(i,j), c_y(i,j): coefficients of the west and south faces, i = 1..nx-1, j = 1..ny-1; c_boundary(i,j): of faces
+  /// where p is held at 0.
   void set_coefficients(const base::Field& c_x, const base::Field& c_y, const base::Field& c_boundary);
 
-  /// p holds the first guess and receives the solution.  Stops when the residual falls below tolerance x norm(b); throws
-  /// Fault (diverged) when that is not reached in `most` iterations.
+  /// p holds the first guess and receives the solution.  Stops when the residual falls below tolerance x norm(b);
+  /// throws Fault (diverged) when that is not reached in `most` iterations.
   SolveReport solve(base::Field& p, const base::Field& b, double tolerance, int most);
 
- private:
+private:
   void apply_operator(const Split<double>& p, Split<double>& q) const;
   double dot(const Split<double>& a, const Split<double>& b);
   /// Takes out the mean over the fluid cells when the pressure floats.

@@ -15,9 +15,7 @@ inline double zero_level(Profile profile, double ks, double u_star, double nu) {
 }
 
 /// Log law U(y) = u*/kappa ln(y/z0) [m/s]; 0 at and below z0.
-inline double log_law(double y, double u_star, double z0) {
-  return y > z0 ? u_star / kappa * std::log(y / z0) : 0.0;
-}
+inline double log_law(double y, double u_star, double z0) { return y > z0 ? u_star / kappa * std::log(y / z0) : 0.0; }
 
 /// Mean of the log law over the depth h [m/s]: u*/kappa (ln(h/z0) - 1 + z0/h).
 inline double depth_mean(double h, double u_star, double z0) {
@@ -40,7 +38,7 @@ inline double shear_velocity_from_shields(double theta, double s, double g, doub
 /// Open-channel equilibrium at height y above the bed in water of depth h: k = u*^2/sqrt(Cmu) (1 - y/h) and
 /// epsilon = u*^3/(kappa y) (1 - y/h), so that nu_t = kappa u* y (1 - y/h).
 inline double equilibrium_k(double y, double h, double u_star) {
-  return std::max(k_floor, base::square(u_star) / std::sqrt(k_epsilon.c_mu) * (1.0 - y / h));
+  return std::max(k_floor, base::square(u_star) / std::sqrt(launder_spalding.c_mu) * (1.0 - y / h));
 }
 inline double equilibrium_epsilon(double y, double h, double u_star) {
   return std::max(epsilon_floor, base::cube(u_star) / (kappa * y) * (1.0 - y / h));

@@ -1,8 +1,7 @@
 #include "flow/pressure.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "base/loops.hpp"
 #include "base/math.hpp"
@@ -27,7 +26,8 @@ System make_system(const MeshParams& grid, const PipeParams& pipe, bool outlet) 
       if (j > 0) s.c_y(i, j) = m.aperture_y(i, j) * m.dx(i) / m.dy_face(j);
       if (outlet && i == m.nx - 1) s.c_boundary(i, j) = m.dy(j) / (0.5 * m.dx(i));
       if (m.volume(i, j) > 0)
-        s.exact(i, j) = std::cos(3 * m.centre_x(i) / m.length()) * std::sin(2 * m.centre_y(j) / m.height()) + 0.1 * ((i * 7 + j * 3) % 5);
+        s.exact(i, j) = std::cos(3 * m.centre_x(i) / m.length()) * std::sin(2 * m.centre_y(j) / m.height()) +
+                        0.1 * ((i * 7 + j * 3) % 5);
     }
   for (int j = 0; j < m.ny; ++j)
     for (int i = 0; i < m.nx; ++i) {
@@ -82,14 +82,16 @@ TEST_P(PressureShapes, recovers_a_known_pressure_in_few_iterations) {
   EXPECT_LT(worst, 1e-7);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    meshes, PressureShapes,
-    ::testing::Values(Shape{"plain", 1, 0.5, 0.02, 0.02, 1, 0, true}, Shape{"floating", 1, 0.5, 0.02, 0.02, 1, 0, false},
-                      Shape{"pipe", 1, 0.4, 0.01, 0.01, 1, 0.1, true}, Shape{"floating_pipe", 1, 0.4, 0.01, 0.01, 1, 0.1, false},
-                      Shape{"stretched", 3, 0.4, 0.01, 0.004, 1.1, 0.1, true},
-                      Shape{"thin", 2, 0.1, 0.005, 0.0005, 1, 0.03, true}, Shape{"odd_halves", 1, 0.3, 0.0135, 0.01, 1, 0.07, true},
-                      Shape{"large", 1.5, 0.175, 0.0025, 0.001, 1, 0.05, true}),
-    [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(meshes, PressureShapes,
+                         ::testing::Values(Shape{"plain", 1, 0.5, 0.02, 0.02, 1, 0, true},
+                                           Shape{"floating", 1, 0.5, 0.02, 0.02, 1, 0, false},
+                                           Shape{"pipe", 1, 0.4, 0.01, 0.01, 1, 0.1, true},
+                                           Shape{"floating_pipe", 1, 0.4, 0.01, 0.01, 1, 0.1, false},
+                                           Shape{"stretched", 3, 0.4, 0.01, 0.004, 1.1, 0.1, true},
+                                           Shape{"thin", 2, 0.1, 0.005, 0.0005, 1, 0.03, true},
+                                           Shape{"odd_halves", 1, 0.3, 0.0135, 0.01, 1, 0.07, true},
+                                           Shape{"large", 1.5, 0.175, 0.0025, 0.001, 1, 0.05, true}),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(pressure, same_bits_for_any_number_of_threads) {
   MeshParams grid;

@@ -1,0 +1,192 @@
+#include "flow/advance.hpp"
+
+#include <cmath>
+
+#include "base/fault.hpp"
+#include "base/loops.hpp"
+#include "flow/constants.hpp"
+#include "flow/pipe.hpp"
+#include "flow/turbulence.hpp"
+
+namespace livebed::flow {
+
+using base::Field;
+using base::for_each_item;
+using base::vector_loop;
+
+Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
+    : params_(params),
+      mesh_(mesh),
+      boundary_(boundary),
+      at_u_(Staggering::west_faces(mesh)),
+      at_v_(Staggering::south_faces(mesh)),
+      at_c_(Staggering::centres(mesh)),
+      work_(mesh),
+      pressure_(mesh.nx, mesh.ny) {
+  const Field zero(mesh.nx, mesh.ny);
+  State& s = state;
+  s.u = s.v = s.p = s.nut = s.u_old = s.v_old = s.rate_u = s.rate_v = zero;
+  s.k = Field(mesh.nx, mesh.ny, 2, k_floor);
+  s.epsilon = Field(mesh.nx, mesh.ny, 2, epsilon_floor);
+  s.load = {zero, zero, zero, zero};
+  for (int j = 0; j < mesh.ny; ++j)
+    for (int i = 0; i < mesh.nx; ++i) {
+      work_.response_u(i, j) = at_u_.volume(i, j) / at_u_.inertia(i, j);
+      work_.response_v(i, j) = at_v_.volume(i, j) / at_v_.inertia(i, j);
+    }
+}
+
+void Solver::start() {
+  State& s = state;
+  for (int j = 0; j < mesh_.ny; ++j) {
+    for (int i = 0; i <= mesh_.nx; ++i)
+      s.u(i, j) = mesh_.aperture_x(i, j) > 0 && boundary_.inlet ? boundary_.inlet_u[j] : 0.0;
+    if (params_.closure == Closure::laminar || !boundary_.inlet) continue;
+    for (int i = 0; i < mesh_.nx; ++i) s.k(i, j) = boundary_.inlet_k[j], s.epsilon(i, j) = boundary_.inlet_epsilon[j];
+  }
+  if (params_.closure != Closure::laminar) update_eddy_viscosity(mesh_, params_, s);
+  fill_velocity_ghosts(mesh_, boundary_, s.u, s.v);
+  double residual = 0;
+  project(1.0, residual);
+  s.p.fill(0.0);  // of a start by impulse: it means nothing for the steps to come
+  s.u_old = s.u;
+  s.v_old = s.v;
+  s.step = s.time = 0;
+}
+
+double Solver::step_limit() const {
+  const double rate = base::largest(0, mesh_.ny, partial_, 0.0, [&](int j) {
+    const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1), *dx = mesh_.dx_.data() + 2;
+    const double dy = mesh_.dy(j);
+    return base::vector_largest(0, mesh_.nx, 0.0, [&](int i) {
+      return std::max(std::abs(u[i]), std::abs(u[i + 1])) / dx[i] + std::max(std::abs(v[i]), std::abs(va[i])) / dy;
+    });
+  });
+  return rate > 0 ? std::min(params_.max_step, params_.courant / rate) : params_.max_step;
+}
+
+void Solver::set_pressure_coefficients() {
+  const bool loaded =
+      base::largest(0, mesh_.ny, partial_, 0.0, [&](int j) {
+        return base::vector_largest(0, mesh_.nx + 1, 0.0, [&](int i) { return state.load.beta_u.row(j)[i]; });
+      }) > 0;
+  if (coefficients_set_ && !loaded) return;
+  coefficients_set_ = !loaded;
+  const Mesh& m = mesh_;
+  for_each_item(0, m.ny, [&](int j) {
+    const double *ax = m.aperture_x.row(j), *ay = m.aperture_y.row(j), *hx = m.dx_face_.data() + 2,
+                 *dx = m.dx_.data() + 2;
+    const double *ru = work_.response_u.row(j), *rv = work_.response_v.row(j);
+    const double dy = m.dy(j), hy = m.dy_face(j);
+    double *cx = work_.c_x.row(j), *cy = work_.c_y.row(j);
+    vector_loop(0, m.nx, [&](int i) {
+      cx[i] = ax[i] * ru[i] * dy / hx[i];
+      cy[i] = ay[i] * rv[i] * dx[i] / hy;
+    });
+    if (boundary_.outlet) work_.c_boundary(m.nx - 1, j) = work_.response_u(m.nx, j) * dy / (0.5 * dx[m.nx - 1]);
+  });
+  pressure_.set_coefficients(work_.c_x, work_.c_y, work_.c_boundary);
+}
+
+void Solver::sum_outflow() {
+  const Mesh& m = mesh_;
+  for_each_item(0, m.ny, [&](int j) {
+    const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1), *ax = m.aperture_x.row(j);
+    const double *ay = m.aperture_y.row(j), *aya = m.aperture_y.row(j + 1), *dx = m.dx_.data() + 2;
+    const double dy = m.dy(j);
+    double* out = work_.outflow.row(j);
+    vector_loop(0, m.nx, [&](int i) {
+      out[i] = (ax[i + 1] * u[i + 1] - ax[i] * u[i]) * dy + (aya[i] * va[i] - ay[i] * v[i]) * dx[i];
+    });
+  });
+}
+
+SolveReport Solver::project(double dt, double& mass_residual) {
+  const Mesh& m = mesh_;
+  const auto norm = [&] {
+    return std::sqrt(base::ordered_sum(0, m.ny, partial_, [&](int j) {
+      const double* out = work_.outflow.row(j);
+      return base::vector_sum(0, m.nx, [&](int i) { return out[i] * out[i]; });
+    }));
+  };
+  set_pressure_coefficients();
+  sum_outflow();
+  const double before = norm();
+  const double scale = -params_.density / dt;
+  for_each_item(0, m.ny, [&](int j) {
+    double* b = work_.outflow.row(j);
+    vector_loop(0, m.nx, [&](int i) { b[i] *= scale; });
+  });
+  work_.phi.fill(0.0);
+  const SolveReport report =
+      pressure_.solve(work_.phi, work_.outflow, params_.pressure_tolerance, params_.pressure_iterations);
+  const double kick = dt / params_.density;
+  for_each_item(0, m.ny, [&](int j) {
+    const double *phi = work_.phi.row(j), *below = work_.phi.row(j - 1), *ax = m.aperture_x.row(j),
+                 *ay = m.aperture_y.row(j);
+    const double *ru = work_.response_u.row(j), *rv = work_.response_v.row(j), *hx = m.dx_face_.data() + 2;
+    const double hy = m.dy_face(j);
+    double *u = state.u.row(j), *v = state.v.row(j), *p = state.p.row(j);
+    vector_loop(1, m.nx, [&](int i) { u[i] -= ax[i] > 0 ? kick * ru[i] * (phi[i] - phi[i - 1]) / hx[i] : 0.0; });
+    if (j > 0) vector_loop(0, m.nx, [&](int i) { v[i] -= ay[i] > 0 ? kick * rv[i] * (phi[i] - below[i]) / hy : 0.0; });
+    if (boundary_.outlet) u[m.nx] += kick * ru[m.nx] * phi[m.nx - 1] / (0.5 * m.dx(m.nx - 1));
+    vector_loop(0, m.nx, [&](int i) { p[i] += phi[i]; });
+  });
+  fill_velocity_ghosts(m, boundary_, state.u, state.v);
+  sum_outflow();
+  mass_residual = before > 0 ? norm() / before : 0.0;
+  return report;
+}
+
+StepReport Solver::advance(double dt) {
+  StepReport report;
+  report.courant = dt * params_.courant / step_limit();
+  center_face_flow(mesh_, state, dt, work_.face);
+  evaluate_walls(mesh_, boundary_, params_, state, work_);
+  predict_velocity(mesh_, boundary_, params_, at_u_, at_v_, dt, state, work_);
+  report.pressure = project(dt, report.mass_residual);
+  complete_rates(at_u_, at_v_, dt, state);
+  if (params_.closure == Closure::k_epsilon) advance_turbulence(mesh_, boundary_, params_, at_c_, dt, state, work_);
+  state.step = dt;
+  state.time += dt;
+  report.pipe_force = pipe_force();
+  return report;
+}
+
+base::Vec2 Solver::pipe_force() const {
+  base::Vec2 force;
+  if (!mesh_.has_pipe()) return force;
+  const Mesh& m = mesh_;
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i) {
+      if (m.wall_length(i, j) == 0) continue;
+      const base::Vec2 wall = wall_vector(m, i, j);
+      const double friction = 0.5 * params_.density * work_.wall_c(i, j);
+      force.x += -state.p(i, j) * wall.x + friction * (state.u(i, j) + state.u(i + 1, j));
+      force.y += -state.p(i, j) * wall.y + friction * (state.v(i, j) + state.v(i, j + 1));
+    }
+  return force;
+}
+
+double Solver::floor_shear_velocity(int i) const {
+  return std::sqrt(work_.floor_c[i] * std::abs(0.5 * (state.u(i, 0) + state.u(i + 1, 0))));
+}
+
+std::string Solver::find_fault() const {
+  const auto look = [&](const char* name, const Field& f) -> std::string {
+    for (int j = 0; j < mesh_.ny; ++j)
+      for (int i = 0; i < mesh_.nx; ++i)
+        if (!std::isfinite(f(i, j)))
+          return fmt::format("{} = {} in cell ({},{}), x = {:.4g} m, y = {:.4g} m", name, f(i, j), i, j,
+                             mesh_.centre_x(i), mesh_.centre_y(j));
+    return {};
+  };
+  for (const auto& [name, field] :
+       {std::pair{"u", &state.u}, {"v", &state.v}, {"p", &state.p}, {"k", &state.k}, {"epsilon", &state.epsilon}}) {
+    const std::string fault = look(name, *field);
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
+}  // namespace livebed::flow

@@ -1,0 +1,71 @@
+#pragma once
+#include <string>
+
+#include "base/vec2.hpp"
+#include "flow/boundary.hpp"
+#include "flow/momentum.hpp"
+#include "flow/params.hpp"
+#include "flow/pressure.hpp"
+#include "flow/state.hpp"
+
+namespace livebed::flow {
+
+/// What a step did.
+struct StepReport {
+  SolveReport pressure;
+  double mass_residual =
+      0;                  ///< net outflow of the cells after the step over that before the projection (Euclidean norms)
+  double courant = 0;     ///< largest dt (|u|/dx + |v|/dy) of the step
+  base::Vec2 pipe_force;  ///< pressure and friction on the pipe per metre of its length [N/m]
+};
+
+/// The flow: grid, state, and the second-order projection that advances them.
+class Solver {
+public:
+  Solver(const Params& params, const Mesh& mesh, const Boundary& boundary);
+
+  /// Inlet profiles everywhere (0 in the bed), made free of divergence.
+  void start();
+
+  /// Largest step that keeps the Courant number at params.courant [s], never above params.max_step.
+  double step_limit() const;
+
+  /// One step of dt [s]:
+  ///   1  time-centred face flow <- u, u_old         2  wall friction <- u
+  ///   3  u* <- convection, diffusion, drag, old p   4  phi <- div u*,  u <- u* - dt/rho grad phi,  p <- p + phi
+  ///   5  k, epsilon, nut <- u
+  /// Throws Fault (diverged) when the pressure solve fails.
+  StepReport advance(double dt);
+
+  /// First value that is not finite, as a sentence with place and time; empty when all is well.
+  std::string find_fault() const;
+
+  /// Kinematic friction velocity along the floor above cell i [m/s].
+  double floor_shear_velocity(int i) const;
+
+  /// Force on the pipe per metre of its length [N/m]: pressure on the cut surfaces and their friction.
+  base::Vec2 pipe_force() const;
+
+  const Params& params() const { return params_; }
+  const Mesh& mesh() const { return mesh_; }
+  const Boundary& boundary() const { return boundary_; }
+  const Staggering& at_u() const { return at_u_; }
+  const Staggering& at_v() const { return at_v_; }
+  State state;
+
+private:
+  void set_pressure_coefficients();
+  SolveReport project(double dt, double& mass_residual);
+  void sum_outflow();
+
+  Params params_;
+  Mesh mesh_;
+  Boundary boundary_;
+  Staggering at_u_, at_v_, at_c_;
+  Workspace work_;
+  PressureSolver pressure_;
+  bool coefficients_set_ = false;
+  mutable std::vector<double> partial_;
+};
+
+}  // namespace livebed::flow

@@ -1,0 +1,41 @@
+#pragma once
+#include "flow/boundary.hpp"
+#include "flow/operators.hpp"
+#include "flow/state.hpp"
+
+namespace livebed::flow {
+
+/// Fields that one step needs besides the state; allocated once.
+struct Workspace {
+  FaceFlow face;                       ///< time-centred flow through the faces
+  base::Field gamma;                   ///< nu + nut at cell centres [m2/s]
+  base::Field wall_c;                  ///< friction factor x length of the pipe's surface in a cell [m2/s]
+  std::vector<double> floor_c, top_c;  ///< friction factor of floor and lid above cell i [m/s]
+  base::Field base_u, base_v;          ///< implicit factor of drag and friction in the momentum lines [-]
+  base::Field response_u, response_v;  ///< share of a pressure gradient that accelerates the face, after drag [-]
+  base::Field friction_u, friction_v;  ///< wall friction of the volumes of u and v [m2/s]
+  Conductance conductance;
+  base::Field change, scratch, base;
+  base::Field production, turnover;  ///< of turbulent energy [m2/s3]; epsilon/k [1/s]
+  base::Field phi, outflow, c_x, c_y, c_boundary;
+  RowScratch rows;
+  explicit Workspace(const Mesh& mesh);
+};
+
+/// Time-centred advecting flow: u + dt/(2 dt_old) (u - u_old).  Both levels are free of divergence, so is their blend.
+void center_face_flow(const Mesh& mesh, const State& s, double dt, FaceFlow& face);
+
+/// Friction factors of floor, lid and pipe from the present flow.
+void evaluate_walls(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s, Workspace& w);
+
+/// Eq. 2-3 without the new pressure: u, v <- predicted velocity.  Convection explicit and time-centred; diffusion by
+/// two line sweeps (centred in time where that cannot oscillate); drag and wall friction implicit.  On return
+/// state.rate_u, rate_v hold minus the convective acceleration: complete_rates turns them into the acceleration without
+/// convection.
+void predict_velocity(const Mesh& mesh, const Boundary& boundary, const Params& params, const Staggering& at_u,
+                      const Staggering& at_v, double dt, State& s, Workspace& w);
+
+/// rate = (u - u_old)/dt - convection, for the face values of the next step.
+void complete_rates(const Staggering& at_u, const Staggering& at_v, double dt, State& s);
+
+}  // namespace livebed::flow

@@ -1,0 +1,63 @@
+#include "flow/staggering.hpp"
+
+#include <algorithm>
+
+namespace livebed::flow {
+
+namespace {
+
+/// Spacing of nodes along one direction: at cell centres (shift 0) or at faces (shift 1).
+struct Axis {
+  std::vector<double> size, h, before, after;
+};
+
+Axis make_axis(const std::vector<double>& width, const std::vector<double>& between, int shift) {
+  const int n = static_cast<int>(width.size());
+  Axis a;
+  a.size.resize(n), a.h.resize(n), a.before.resize(n), a.after.resize(n);
+  for (int i = 0; i < n; ++i) {
+    if (shift == 0) {
+      a.size[i] = width[i];
+      a.h[i] = between[i];
+      a.before[i] = 0.5 * width[std::max(i - 1, 0)];
+      a.after[i] = 0.5 * width[i];
+    } else {
+      a.size[i] = between[i];
+      a.h[i] = width[std::max(i - 1, 0)];
+      a.before[i] = a.after[i] = 0.5 * a.h[i];
+    }
+  }
+  return a;
+}
+
+Staggering make(const Mesh& m, int shift_x, int shift_y) {
+  Staggering s;
+  s.shift_x = shift_x, s.shift_y = shift_y;
+  s.i0 = shift_x, s.i1 = m.nx, s.j0 = shift_y, s.j1 = m.ny;
+  Axis x = make_axis(m.dx_, m.dx_face_, shift_x), y = make_axis(m.dy_, m.dy_face_, shift_y);
+  s.width = x.size, s.hx = x.h, s.to_west = x.before, s.from_west = x.after;
+  s.height = y.size, s.hy = y.h, s.to_south = y.before, s.from_south = y.after;
+  s.volume = s.inertia = s.area_x = s.area_y = base::Field(m.nx, m.ny);
+  for (int j = 0; j <= m.ny; ++j)
+    for (int i = 0; i <= m.nx; ++i) {
+      const int a = i - shift_x, b = j - shift_y;
+      s.area_x(i, j) = 0.5 * (m.aperture_x(a, b) + m.aperture_x(i, j)) * s.height[j + 2];
+      s.area_y(i, j) = 0.5 * (m.aperture_y(a, b) + m.aperture_y(i, j)) * s.width[i + 2];
+      s.volume(i, j) = 0.5 * (m.volume(a, b) * m.dx(a) * m.dy(b) + m.volume(i, j) * m.dx(i) * m.dy(j));
+    }
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i) {
+      const double open_x = std::max(s.area_x(i, j), s.area_x(i + 1, j)) / s.height[j + 2];
+      const double open_y = std::max(s.area_y(i, j), s.area_y(i, j + 1)) / s.width[i + 2];
+      s.inertia(i, j) = std::max(s.volume(i, j), 0.5 * std::max(open_x, open_y) * s.width[i + 2] * s.height[j + 2]);
+    }
+  return s;
+}
+
+}  // namespace
+
+Staggering Staggering::centres(const Mesh& m) { return make(m, 0, 0); }
+Staggering Staggering::west_faces(const Mesh& m) { return make(m, 1, 0); }
+Staggering Staggering::south_faces(const Mesh& m) { return make(m, 0, 1); }
+
+}  // namespace livebed::flow

@@ -1,0 +1,26 @@
+#pragma once
+#include <vector>
+
+#include "flow/mesh.hpp"
+
+namespace livebed::flow {
+
+/// Where a quantity lives on the grid: at cell centres, on west faces (u) or on south faces (v), with the control
+/// volumes around it.  Whatever belongs to a face of such a volume is the mean of two cell faces, (i - shift_x, j -
+/// shift_y) and (i, j): so u, v and scalars share every kernel.
+struct Staggering {
+  int shift_x = 0, shift_y = 0;
+  int i0 = 0, i1 = 0, j0 = 0, j1 = 0;            ///< unknowns: i0 <= i < i1, j0 <= j < j1
+  std::vector<double> width, height;             ///< of the volumes [m]; entry i+2 is volume i, likewise below
+  std::vector<double> hx, to_west, from_west;    ///< nodes i-1 and i: distance, i-1 to their face, their face to i [m]
+  std::vector<double> hy, to_south, from_south;  ///< the same in y
+  base::Field volume;                            ///< open volume [m2 per unit of depth]
+  base::Field inertia;         ///< the same, but never much less than the open faces: a sliver would need a tiny step
+  base::Field area_x, area_y;  ///< open area of west and south faces of the volumes [m]
+
+  static Staggering centres(const Mesh& mesh);
+  static Staggering west_faces(const Mesh& mesh);
+  static Staggering south_faces(const Mesh& mesh);
+};
+
+}  // namespace livebed::flow
