@@ -1,6 +1,10 @@
 #include "io/hdf5.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <string_view>
 #include <utility>
+#include <zlib.h>
 
 #include "base/fault.hpp"
 
@@ -21,17 +25,31 @@ hid_t native_type() {
   if constexpr (std::same_as<T, char>) return H5T_NATIVE_CHAR;
 }
 
-/// In-memory files whose metadata carries checksums (file format of HDF5 1.10); nothing is written back to disk by
-/// HDF5.
+/// The file ends with the CRC-32 of all bytes before it.  HDF5 tools ignore what follows the end of the data they know.
+constexpr std::string_view checksum_mark = "livebed-crc32=";
+constexpr std::size_t trailer_size = checksum_mark.size() + 8;
+
+std::string trailer(std::string_view image) {
+  const uLong crc = crc32_z(crc32(0, nullptr, 0), reinterpret_cast<const Bytef*>(image.data()), image.size());
+  return fmt::format("{}{:08x}", checksum_mark, crc);
+}
+
+/// In-memory files; HDF5 writes nothing back to disk.
 Handle memory_access() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth = 1 << 20;
   H5Pset_fapl_core(access, growth, false);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
   // Sub-groups may outlive the file's handle; the file closes with the last of them.
   H5Pset_fclose_degree(access, H5F_CLOSE_WEAK);
   return access;
+}
+
+/// Name under which HDF5 knows an in-memory file: one that no file on disk can have (HDF5 refuses an image whose name
+/// exists) and that is never used twice (HDF5 would hand out the older file).
+std::string memory_name(const Path& path) {
+  static std::atomic<std::uint64_t> count{0};
+  return fmt::format("/dev/null/{}/{}", count++, path.filename().string());
 }
 
 std::string shape_text(const std::vector<hsize_t>& shape) {
@@ -89,17 +107,10 @@ std::size_t Group::length(const std::string& name) const {
 template <class T>
 void Group::write_block(const std::string& name, const T* data, std::vector<hsize_t> shape) {
   const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
-  const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  hsize_t count = 1;
-  for (hsize_t n : shape) count *= n;
-  if (count > 0) {  // one chunk, because checksums need chunks
-    H5Pset_chunk(layout, static_cast<int>(shape.size()), shape.data());
-    H5Pset_fletcher32(layout);
-  }
-  const Handle dataset(H5Dcreate2(handle_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, layout, H5P_DEFAULT),
-                       H5Dclose);
+  const Handle dataset(
+      H5Dcreate2(handle_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   if (dataset < 0) fault(name, "cannot create the dataset (is the name used twice?)");
-  if (count > 0 && H5Dwrite(dataset, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+  if (H5Dwrite(dataset, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     fault(name, "cannot write the dataset");
 }
 
@@ -115,10 +126,8 @@ void Group::read_block(const std::string& name, T* data, const std::vector<hsize
     fault(name, fmt::format("holds {} values where {} are needed", shape_text(found), shape_text(shape)));
   const Handle type(H5Dget_type(dataset), H5Tclose);
   if (H5Tequal(type, native_type<T>()) <= 0) fault(name, "holds numbers of another type");
-  for (hsize_t n : shape)
-    if (n == 0) return;
   if (H5Dread(dataset, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
-    fault(name, "cannot be read (wrong checksum or truncated); the file is damaged, use an older one");
+    fault(name, "cannot be read; the file is damaged, use an older one");
 }
 
 template <Number T>
@@ -206,7 +215,7 @@ LIVEBED_HDF5_TYPE(std::uint64_t)
 
 Hdf5Writer::Hdf5Writer(const Path& path) : path_(path) {
   const Handle access = memory_access();
-  file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  file_ = Handle(H5Fcreate(memory_name(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   if (file_ < 0) fail(Exit::input_output, "cannot prepare the HDF5 file {} in memory", path.string());
 }
 
@@ -219,17 +228,19 @@ void Hdf5Writer::save() {
   std::string image(static_cast<std::size_t>(size), '\0');
   if (H5Fget_file_image(file_, image.data(), image.size()) != size)
     fail(Exit::input_output, "cannot finish the HDF5 file {} in memory", path_.string());
-  write_atomically(path_, image);
+  write_atomically(path_, image + trailer(image));
 }
 
 Hdf5Reader::Hdf5Reader(const Path& path) : path_(path) {
   std::string image = read_file(path);
-  const Handle access = memory_access();
-  if (!image.empty() && H5Pset_file_image(access, image.data(), image.size()) >= 0)  // HDF5 takes a copy
-    file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
-  if (file_ < 0)
-    fail(Exit::input_output, "{} is not a whole HDF5 file (truncated, damaged or of another kind); use an older one",
+  const std::size_t size = std::max(image.size(), trailer_size) - trailer_size;
+  if (image.substr(size) != trailer(std::string_view(image).substr(0, size)))
+    fail(Exit::input_output, "{} is not a whole checkpoint (truncated, damaged or of another kind); use an older one",
          path.string());
+  const Handle access = memory_access();
+  H5Pset_file_image(access, image.data(), size);  // HDF5 takes a copy
+  file_ = Handle(H5Fopen(memory_name(path).c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+  if (file_ < 0) fail(Exit::input_output, "{} cannot be opened as an HDF5 file", path.string());
 }
 
 Group Hdf5Reader::root() const { return {Handle(H5Gopen2(file_, "/", H5P_DEFAULT), H5Gclose), path_.string() + ":"}; }

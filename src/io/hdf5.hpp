@@ -11,7 +11,7 @@
 #include "io/file.hpp"
 
 /// HDF5 for checkpoints.  A file is made and read in memory; the disk sees one atomic write or one read, so that a full
-/// disk can never leave half a checkpoint.  Datasets and metadata carry checksums.  All errors are Faults
+/// disk can never leave half a checkpoint.  The whole file carries a checksum.  All errors are Faults
 /// (input/output) that name the file and the dataset; HDF5's own error printing is off.
 namespace livebed::io {
 

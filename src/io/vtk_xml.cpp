@@ -16,7 +16,8 @@ using base::fail;
 
 namespace {
 
-constexpr std::uint64_t block_size = 1 << 18;  ///< uncompressed bytes a block
+constexpr std::uint64_t block_size = 1 << 18;     ///< uncompressed bytes a block
+constexpr std::uint64_t largest_block = 1 << 24;  ///< that the reader believes
 /// Fast compression: the default level takes four times as long for a tenth less.
 constexpr int compression_level = 1;
 
@@ -185,7 +186,8 @@ DataArray AppendedReader::decode(const std::map<std::string, std::string>& attri
     return result;
   };
   const std::uint64_t blocks = next(), size = next(), last = next();
-  if (blocks > block_.size() || size > (1u << 30)) fault(fmt::format("is damaged in the array {}", array.name));
+  if (blocks > block_.size() / sizeof(blocks) || size > largest_block || last >= std::max<std::uint64_t>(size, 1))
+    fault(fmt::format("is damaged in the array {}", array.name));
   std::vector<std::uint64_t> sizes(blocks);
   for (auto& s : sizes) s = next();
   std::string raw;
