@@ -1,0 +1,114 @@
+#include "case/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/options.hpp"
+#include "app/verbs.hpp"
+#include "base/loops.hpp"
+#include "case/resolved.hpp"
+#include "flow/mesh.hpp"
+#include "grains/laws.hpp"
+
+namespace livebed::app {
+namespace {
+
+/// Speeds of one thread for the estimate of the wall time; an order of magnitude, not a promise.
+constexpr double grain_steps_per_second = 3e7;
+constexpr double cell_steps_per_second = 2e6;
+/// The gap under the pipe speeds the current up by about this much.
+constexpr double speed_up_at_pipe = 2;
+
+struct Number {
+  const char* name;  ///< in JSON
+  double value;
+  const char* unit;
+  const char* meaning;
+};
+
+double smallest_width(const std::vector<double>& faces) {
+  double least = faces.back();
+  for (std::size_t i = 1; i < faces.size(); ++i) least = std::min(least, faces[i] - faces[i - 1]);
+  return least;
+}
+
+/// What follows from a case, in the order of the listing.
+std::vector<Number> derived_numbers(const casefile::Case& c) {
+  const flow::Params& f = c.flow;
+  const grains::Params& g = c.grains;
+  const auto faces = [&](double length, double cell, double from, double to) {
+    return flow::stretched_faces(length, cell, f.mesh.growth, from, to);
+  };
+  const std::vector<double> x = faces(f.mesh.length, f.mesh.cell_x, f.mesh.fine_x_from, f.mesh.fine_x_to);
+  const std::vector<double> y = faces(f.mesh.height, f.mesh.cell_y, f.mesh.fine_y_from, f.mesh.fine_y_to);
+  const double cells = static_cast<double>((x.size() - 1) * (y.size() - 1));
+  const double speed = f.current.mean_speed * (f.pipe.present ? speed_up_at_pipe : 1);
+  const double cell = std::min(smallest_width(x), smallest_width(y));
+  const double flow_step = std::min(f.max_step, f.courant * cell / speed);
+  const double flow_steps = (c.time.end + c.time.spin_up) / flow_step;
+  const double grain_steps = g.count > 0 ? c.time.end / g.step : 0;
+  const double wall =
+      (flow_steps * cells / cell_steps_per_second + grain_steps * g.count / grain_steps_per_second) / base::threads();
+  return {{"theta", c.theta, "-", "Shields parameter"},
+          {"shear_velocity", f.current.shear_velocity, "m/s", "u*"},
+          {"mean_speed", f.current.mean_speed, "m/s", "depth mean of the current"},
+          {"water_depth", f.mesh.height - c.bed_thickness, "m", "above the nominal bed"},
+          {"bed_thickness", c.bed_thickness, "m", "nominal level of the bed"},
+          {"grains", static_cast<double>(g.count), "-", "number of grains"},
+          {"pipe_y", f.pipe.present ? f.pipe.y : 0, "m", "centre of the pipe above the floor; 0 without a pipe"},
+          {"time_scale", c.time_scale, "s", "T of the scour; 0 without a pipe or grains"},
+          {"end", c.time.end, "s", "last time"},
+          {"end_over_T", c.time.end_over_T, "-", "last time over T"},
+          {"stiffness", g.stiffness, "N/m", "k_n"},
+          {"grain_step", g.step, "s", "step of the grains"},
+          {"contact_steps", g.steps_per_contact, "-", "grain steps in the critical time of a contact"},
+          {"damping", g.damping, "-", "alpha_cn"},
+          {"restitution", g.restitution, "-", "of a head-on pair"},
+          {"static_overlap", g.count > 0 ? casefile::static_overlap(c) : 0, "d", "of the lowest grains"},
+          {"cells", cells, "-", "cells of the grid"},
+          {"flow_step", flow_step, "s", "estimate from the Courant number"},
+          {"flow_steps", std::ceil(flow_steps), "-", "estimate, spin-up included"},
+          {"grain_steps", std::ceil(grain_steps), "-", "steps of every grain"},
+          {"wall_s", wall, "s", "rough estimate of the wall time, packing not included"}};
+}
+
+void print_json(const casefile::Case& c) {
+  nlohmann::ordered_json all{{"title", c.title}, {"preset", c.preset}, {"hash", casefile::hash(c)}};
+  for (const Number& number : derived_numbers(c)) all[number.name] = number.value;
+  all["notes"] = casefile::notes(c);
+  fmt::print("{}\n", all.dump(2));
+}
+
+void print_text(const casefile::Case& c) {
+  fmt::print("{}\npreset {}, case {}\n\n", c.title, c.preset, casefile::hash(c));
+  for (const Number& number : derived_numbers(c))
+    fmt::print("{:<15} {:>12.6g} {:<5} {}\n", number.name, number.value, number.unit, number.meaning);
+  for (const std::string& note : casefile::notes(c)) fmt::print("note: {}\n", note);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& chosen) {
+  struct Options {
+    CaseOptions which;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("check", "read a case, tell every fault or what follows from it; write nothing");
+  options->which.add_to(*verb);
+  verb->add_flag("--json", options->json, "as JSON");
+  verb->callback([options, &chosen] {
+    chosen = [options] {
+      const casefile::Case c = options->which.read();
+      options->json ? print_json(c) : print_text(c);
+      return base::Exit::ok;
+    };
+  });
+}
+
+}  // namespace livebed::app

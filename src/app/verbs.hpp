@@ -1,0 +1,18 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "base/fault.hpp"
+
+/// The verbs of the program, one file each.  add_<verb> declares its options; when the command line names the verb, it
+/// leaves in `chosen` what is to be done, and main does it once everything is parsed.
+namespace livebed::app {
+
+/// Does the verb's work and returns the exit code; throws base::Fault for everything a user can get wrong.
+using Action = std::function<base::Exit()>;
+
+void add_new(CLI::App& app, Action& chosen);
+void add_check(CLI::App& app, Action& chosen);
+void add_keys(CLI::App& app, Action& chosen);
+
+}  // namespace livebed::app

@@ -1,0 +1,19 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "case/case.hpp"
+
+/// The case as a run keeps it: every default and every derived number, in SI units.
+namespace livebed::casefile {
+
+/// TOML text with every key of the schema and a table [derived]; read_text gives the identical case from it.
+std::string resolved_text(const Case& c);
+
+/// Writes that text.  Throws base::Fault (input_output) when the file cannot be written.
+void write_resolved(const Case& c, const std::filesystem::path& path);
+
+/// FNV-1a, 64 bits, of the resolved text, as 16 hexadecimal digits: equal cases have equal hashes.
+std::string hash(const Case& c);
+
+}  // namespace livebed::casefile
