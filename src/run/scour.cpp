@@ -16,9 +16,11 @@ using base::square;
 
 namespace {
 
-bool inside(const PipeCircle& pipe, double x, double y) {
-  return 4 * (square(x - pipe.x) + square(y - pipe.y)) < square(pipe.diameter);
+bool inside(const PipeCircle& pipe, double diameter, double x, double y) {
+  return 4 * (square(x - pipe.x) + square(y - pipe.y)) < square(diameter);
 }
+
+constexpr double reach_over_diameter = 2.5;
 
 /// Least part of a cell's surroundings that must be open for its fraction to mean something.
 constexpr double open_floor = 0.05;
@@ -47,12 +49,17 @@ SamplingGrid sampling_grid(double length, double height, double cell) {
   return grid;
 }
 
-SolidFraction::SolidFraction(const SamplingGrid& grid, const PipeCircle& pipe, double reach)
-    : grid_(grid), pipe_(pipe), reach_(reach), fraction_(grid.nx, grid.ny, 0), open_(grid.nx, grid.ny, 0, 1.0) {
-  if (reach < std::max(grid.hx, grid.hy))
-    fail(Exit::internal, "smoothing over {} m on sampling cells of {} m x {} m: widen it", reach, grid.hx, grid.hy);
-  if (2 * reach / std::min(grid.hx, grid.hy) + 1 > most_weights)
-    fail(Exit::internal, "smoothing over {} m needs more than {} sampling cells of {} m x {} m: coarsen them", reach,
+SolidFraction::SolidFraction(const SamplingGrid& grid, const PipeCircle& pipe, double diameter)
+    : grid_(grid),
+      pipe_(pipe),
+      diameter_(diameter),
+      reach_(reach_over_diameter * diameter),
+      fraction_(grid.nx, grid.ny, 0),
+      open_(grid.nx, grid.ny, 0, 1.0) {
+  if (reach_ < std::max(grid.hx, grid.hy))
+    fail(Exit::internal, "smoothing over {} m on sampling cells of {} m x {} m: refine them", reach_, grid.hx, grid.hy);
+  if (2 * reach_ / std::min(grid.hx, grid.hy) + 1 > most_weights)
+    fail(Exit::internal, "smoothing over {} m needs more than {} sampling cells of {} m x {} m: coarsen them", reach_,
          most_weights, grid.hx, grid.hy);
   if (pipe.diameter <= 0) return;
   base::Field blocked(grid.nx, grid.ny, 0);
@@ -62,7 +69,7 @@ SolidFraction::SolidFraction(const SamplingGrid& grid, const PipeCircle& pipe, d
       int covered = 0;
       for (int b = 0; b < parts; ++b)
         for (int a = 0; a < parts; ++a)
-          covered += inside(pipe, (i + (a + 0.5) / parts) * grid.hx, (j + (b + 0.5) / parts) * grid.hy);
+          covered += inside(pipe, pipe.diameter, (i + (a + 0.5) / parts) * grid.hx, (j + (b + 0.5) / parts) * grid.hy);
       const double part = static_cast<double>(covered) / (parts * parts);
       if (covered > 0) spread(grid.x(i), grid.y(j), part * grid.hx * grid.hy, blocked);
     }
@@ -105,12 +112,16 @@ void SolidFraction::sample(std::span<const double> x, std::span<const double> y,
     for (int i = 0; i < grid_.nx; ++i) fraction_(i, j) /= std::max(open_(i, j), open_floor);
 }
 
+bool SolidFraction::barred(double x, double y) const {
+  return pipe_.diameter > 0 && inside(pipe_, pipe_.diameter + diameter_, x, y);
+}
+
 double SolidFraction::packed(double y_from, double y_to) const {
   std::vector<double> sample;
   for (int j = 0; j < grid_.ny; ++j) {
     if (grid_.y(j) < y_from || grid_.y(j) >= y_to) continue;
     for (int i = 0; i < grid_.nx; ++i)
-      if (!inside(pipe_, grid_.x(i), grid_.y(j))) sample.push_back(fraction_(i, j));
+      if (!barred(grid_.x(i), grid_.y(j))) sample.push_back(fraction_(i, j));
   }
   if (sample.empty()) fail(Exit::internal, "no sampling cell between y = {} m and {} m", y_from, y_to);
   std::nth_element(sample.begin(), sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2), sample.end());
@@ -127,7 +138,7 @@ std::vector<double> bed_line(const SolidFraction& solid, double packed) {
     int below = -1;    // the highest cell so far that is bed
     bool through_pipe = false;
     for (int j = 0; j < grid.ny; ++j) {
-      if (inside(pipe, grid.x(i), grid.y(j))) {
+      if (solid.barred(grid.x(i), grid.y(j))) {
         through_pipe = true;
         continue;
       }
@@ -139,7 +150,8 @@ std::vector<double> bed_line(const SolidFraction& solid, double packed) {
         continue;
       }
       if (below >= 0 && through_pipe) {
-        level = pipe.y - std::sqrt(square(pipe.diameter / 2) - square(grid.x(i) - pipe.x));
+        // Beside the pipe's flank, where no grain fits either, the underside is taken at its outermost point.
+        level = pipe.y - std::sqrt(std::max(0.0, square(pipe.diameter / 2) - square(grid.x(i) - pipe.x)));
       } else if (below >= 0) {
         const double under = solid.values()(i, below);
         level = grid.y(below) + grid.hy * (under - half) / (under - here);

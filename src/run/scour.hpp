@@ -28,19 +28,22 @@ struct PipeCircle {
 
 /// Area fraction of the grain discs, smoothed over a few diameters.
 ///
-/// Each disc hands its area to the cells within `reach` of its centre with the weights (1 + cos(pi r/reach)) in x times
-/// the same in y, scaled to sum 1; what would fall below the floor is folded back.  Cells beside the pipe are divided
-/// by the part of their surroundings that is open, so the fraction of a bed does not fade where it leans on the pipe.
+/// Each disc hands its area to the cells within reach = 2.5 d of its centre with the weights (1 + cos(pi r/reach)) in x
+/// times the same in y, scaled to sum 1; what would fall below the floor is folded back.  Cells beside the pipe are
+/// divided by the part of their surroundings that is open, so the fraction of a bed does not fade where it leans on the
+/// pipe.
 class SolidFraction {
 public:
-  /// reach: half-width of the kernel [m], 2 to 3 grain diameters.
-  SolidFraction(const SamplingGrid& grid, const PipeCircle& pipe, double reach);
+  /// diameter: of a typical grain, d [m].  Fault (internal) when the cells are wider than the kernel or absurdly fine.
+  SolidFraction(const SamplingGrid& grid, const PipeCircle& pipe, double diameter);
 
   /// x, y, diameter: one entry a grain [m]; x may lie outside [0, length) and is wrapped.
   void sample(std::span<const double> x, std::span<const double> y, std::span<const double> diameter);
 
   const SamplingGrid& grid() const { return grid_; }
   const PipeCircle& pipe() const { return pipe_; }
+  /// Is (x, y) inside the pipe or closer to it than a grain's centre can come?
+  bool barred(double x, double y) const;
   /// Smoothed fraction [-], nx x ny, without ghosts.
   const base::Field& values() const { return fraction_; }
 
@@ -53,7 +56,7 @@ private:
 
   SamplingGrid grid_;
   PipeCircle pipe_;
-  double reach_;
+  double diameter_, reach_;
   base::Field fraction_;
   base::Field open_;  ///< smoothed part of the surroundings outside the pipe [-]
 };
