@@ -1,16 +1,31 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fmt/core.h>
+#include <string>
+#include <vector>
 
 #include "app/verbs.hpp"
 #include "base/fault.hpp"
 #include "base/loops.hpp"
 #include "base/version.hpp"
+#include "case/faults.hpp"
 
 namespace {
 
 using livebed::base::Exit;
+
+/// Ends with a better sentence than the parser's when the first word is not a verb.
+void tell_unknown_verb(const CLI::App& program, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "-";
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : program.get_subcommands(nullptr)) verbs.push_back(verb->get_name());
+  if (word.starts_with('-') || std::find(verbs.begin(), verbs.end(), word) != verbs.end()) return;
+  const std::string meant = livebed::casefile::nearest(word, verbs);
+  livebed::base::fail(Exit::command_line, "{} is not a verb{}; there are {}", word,
+                      meant.empty() ? "" : fmt::format(" (did you mean {}?)", meant), livebed::casefile::listed(verbs));
+}
 
 int run(int argc, char** argv) {
   using namespace livebed;
@@ -20,8 +35,9 @@ int run(int argc, char** argv) {
                            fmt::format("livebed {} ({}, {})", base::version(), base::commit(), base::compiler()));
   program.require_subcommand(1);
   program.fallthrough();
-  int threads = 1;
-  program.add_option("--threads", threads, "threads to compute on; the results do not depend on it")
+  int threads = base::available_threads();
+  program
+      .add_option("--threads", threads, "threads to compute on, all processors by default; results do not depend on it")
       ->envname("LIVEBED_THREADS");
 
   app::Action chosen;
@@ -32,6 +48,7 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    tell_unknown_verb(program, argc, argv);
     return static_cast<int>(program.exit(error) == 0 ? Exit::ok : Exit::command_line);
   }
   base::set_threads(threads);

@@ -1,5 +1,7 @@
 #include "base/loops.hpp"
 
+#include <omp.h>
+
 #include "base/fault.hpp"
 
 namespace livebed::base {
@@ -14,5 +16,6 @@ void set_threads(int n) {
 }
 
 int threads() { return thread_count; }
+int available_threads() { return omp_get_num_procs(); }
 
 }  // namespace livebed::base

@@ -10,6 +10,8 @@ namespace livebed::base {
 /// Number of threads that parallel loops use; set once at start-up.  Throws Fault (command line) for n < 1.
 void set_threads(int n);
 int threads();
+/// Processors this program may run on.
+int available_threads();
 
 /// Calls body(k) once for every k in [begin, end), on all threads.  body must not throw and writes only what belongs to
 /// item k.

@@ -1,8 +1,12 @@
 #include "case/read.hpp"
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <sstream>
+#include <system_error>
 #include <toml++/toml.h>
 
 #include "base/fault.hpp"
@@ -166,6 +170,14 @@ std::vector<std::string> table_names() {
   return names;
 }
 
+/// The TOML parser's complaint in our words.
+std::string syntax_fault(const std::string& description) {
+  const std::size_t quote = description.find('\'');
+  if (description.find("cannot redefine") != std::string::npos && quote != std::string::npos)
+    return fmt::format("{} is given twice", description.substr(quote + 1, description.rfind('\'') - quote - 1));
+  return "not TOML: " + description;
+}
+
 Origin line_of(const toml::node& node) { return {Origin::Kind::file, static_cast<int>(node.source().begin.line)}; }
 
 class Reader {
@@ -182,7 +194,8 @@ public:
     const std::string underivable = derive_safely();
     check(case_, sources_, faults_);
     if (faults_.empty() && !underivable.empty()) faults_.add({}, "{}", underivable);
-    if (const toml::table* derived = root["derived"].as_table()) compare_derived("", *derived);
+    const toml::table* derived = root["derived"].as_table();
+    if (derived && overrides.empty()) compare_derived("", *derived);
     faults_.report();
     return case_;
   }
@@ -203,8 +216,8 @@ private:
     try {
       return toml::parse(text);
     } catch (const toml::parse_error& error) {
-      faults_.add({Origin::Kind::file, static_cast<int>(error.source().begin.line)}, "not TOML: {}",
-                  error.description());
+      faults_.add({Origin::Kind::file, static_cast<int>(error.source().begin.line)}, "{}",
+                  syntax_fault(std::string(error.description())));
       faults_.report();
       throw;  // not reached: report throws
     }
@@ -316,7 +329,7 @@ private:
     }
     if (chosen.empty() && !group.otherwise.empty()) chosen.push_back(group.otherwise);
     if (chosen.size() > 1)
-      faults_.add(sources_.origin[chosen[1]], "{} contradict each other: give one of them", fmt::join(chosen, " and "));
+      faults_.add(later(chosen), "{} contradict each other: give one of them", fmt::join(chosen, " and "));
     if (chosen.empty()) faults_.add({}, "missing: give one of {}", listed(group.keys));
     if (chosen.size() != 1) {
       sources_.bad.insert(group.keys.begin(), group.keys.end());
@@ -330,6 +343,12 @@ private:
     }
   }
 
+  Origin later(const std::vector<std::string>& names) {
+    return sources_.origin[*std::max_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
+      return sources_.origin[a].line < sources_.origin[b].line;
+    })];
+  }
+
   /// Why a number could not be derived; empty when all could.  Usually the consequence of a fault told otherwise.
   std::string derive_safely() {
     try {
@@ -340,7 +359,7 @@ private:
     return "";
   }
 
-  /// A resolved case carries its derived numbers; a file whose keys were changed since then contradicts them.
+  /// A resolved case carries its derived numbers; one whose keys were edited since then contradicts them.
   void compare_derived(const std::string& prefix, const toml::table& table) {
     for (const auto& [key, node] : table) {
       const std::string name = prefix + std::string(key.str());
@@ -379,12 +398,12 @@ std::filesystem::path case_file(const std::filesystem::path& path) {
 Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   const std::filesystem::path file = case_file(path);
   std::ifstream stream(file);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream || !text)
+  std::string text;
+  if (stream) text.assign(std::istreambuf_iterator<char>(stream), {});
+  if (!stream)
     base::fail(base::Exit::input_output, "cannot read the case file {}: {}", file.string(),
                std::generic_category().message(errno));
-  return read_text(text.str(), file.string(), overrides);
+  return read_text(text, file.string(), overrides);
 }
 
 Case read_text(std::string_view toml, const std::string& name, const std::vector<std::string>& overrides) {

@@ -112,7 +112,7 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
   const std::string_view unsigned_text = text.starts_with('+') ? text.substr(1) : text;
   double value = 0;
   const auto [stop, error] = std::from_chars(unsigned_text.data(), unsigned_text.data() + unsigned_text.size(), value);
-  if (error != std::errc{}) return std::nullopt;
+  if (error == std::errc::invalid_argument) return std::nullopt;  // out of range is a number still
   const std::size_t length = static_cast<std::size_t>(stop - unsigned_text.data());
   return Quantity{std::string(unsigned_text.substr(0, length)), std::string(trimmed(unsigned_text.substr(length)))};
 }
