@@ -59,7 +59,7 @@ Params derive(Params p) {
   require(p.diameter > 0, "grains.diameter", p.diameter, "it is above 0 [m]");
   require(p.density > p.fluid_density, "grains.density", p.density, "grains are heavier than the fluid [kg/m3]");
   require(p.spread >= 0 && p.spread < 0.5, "grains.spread", p.spread, "it lies in [0, 0.5)");
-  require(p.steps_per_contact > 4, "contact.steps_per_contact", p.steps_per_contact, "more than 4");
+  require(p.steps_per_contact > 4, "contact.steps", p.steps_per_contact, "more than 4");
   require(p.skin > 0, "contact.skin", p.skin, "it is above 0");
   require(p.gamma > 0, "contact.gamma", p.gamma, "it is above 0");
   const double m = mass(p, p.diameter);

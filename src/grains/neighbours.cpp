@@ -36,7 +36,7 @@ void check_places(const State& s, double length) {
           std::isfinite(s.omega[i]))) {
       fail(Exit::diverged,
            "grain {} is lost: x = {} m, y = {} m, u = {} m/s, v = {} m/s, spin = {} 1/s; all must be finite; "
-           "a smaller grain step (more steps per contact) or less damping cures an unstable contact",
+           "a smaller grain step (more contact.steps) or less damping cures an unstable contact",
            s.id[i], s.x[i], s.y[i], s.u[i], s.v[i], s.omega[i]);
     }
     if (s.x[i] < 0 || s.x[i] > length || s.y[i] < -s.diameter[i]) {

@@ -79,7 +79,7 @@ std::vector<SettleRow> settle(Bed& bed) {
     if (now > p.settle_time && calm < looks_in_a_row) {
       fail(Exit::stopped_by_limit,
            "the bed has not come to rest within bed.settle_time = {} s: mean grain speed {} m/s (asked for: below {} "
-           "m/s), largest {} m/s; allow more time, or use more steps per contact or less damping if the contacts shake",
+           "m/s), largest {} m/s; allow more time, or use more contact.steps or less damping if the contacts shake",
            p.settle_time, rows.back().mean_speed, p.settled_speed, rows.back().max_speed);
     }
   }

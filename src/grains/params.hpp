@@ -16,31 +16,31 @@ enum class Floor { grains, plane };
 
 struct Params {
   // the grain
-  double diameter = 2e-3;  ///< d [m], mean
-  double density = 2650;   ///< rho_s [kg/m3]
-  double spread = 0.05;    ///< half-width of the uniform distribution of diameters over d [-]; 0 = equal grains
-  double added_mass = 0.5; ///< C_M [-]
+  double diameter = 2e-3;   ///< d [m], mean
+  double density = 2650;    ///< rho_s [kg/m3]
+  double spread = 0.05;     ///< half-width of the uniform distribution of diameters over d [-]; 0 = equal grains
+  double added_mass = 0.5;  ///< C_M [-]
   Inertia inertia = Inertia::sphere;
   double fluid_density = 1000;  ///< rho [kg/m3], for added mass and submerged weight
   double gravity = 9.81;        ///< [m/s2]
 
   // the contact
-  double stiffness = 0;         ///< k_n [N/m]; derived from step when the case gives the step
-  double step = 0;              ///< Delta t_s [s]; derived from stiffness when the case gives that
-  double steps_per_contact = 20;   ///< Delta t_c / Delta t_s of Eq. 25 [-]
-  double poisson = 0.3;         ///< [-], k_s = k_n / (2 (1 + nu)), eta_s likewise (Eq. 26-27)
-  double damping = 0;           ///< alpha_cn [-] of Eq. 27, on the full mass; derived when restitution is given
-  double restitution = 0;       ///< normal restitution of a pair [-]; derived when damping is given
-  double friction = 0.55;       ///< mu [-]
-  double wall_factor = 2;       ///< k, eta, mu of walls over those of grains [-] (Eq. 28)
-  double gamma = 1;             ///< contact distance over the sum of radii [-] (Eq. 19)
+  double stiffness = 0;           ///< k_n [N/m]; derived from step when the case gives the step
+  double step = 0;                ///< Delta t_s [s]; derived from stiffness when the case gives that
+  double steps_per_contact = 20;  ///< Delta t_c / Delta t_s of Eq. 25 [-]
+  double poisson = 0.3;           ///< [-], k_s = k_n / (2 (1 + nu)), eta_s likewise (Eq. 26-27)
+  double damping = 0;             ///< alpha_cn [-] of Eq. 27, on the full mass; derived when restitution is given
+  double restitution = 0;         ///< normal restitution of a pair [-]; derived when damping is given
+  double friction = 0.55;         ///< mu [-]
+  double wall_factor = 2;         ///< k, eta, mu of walls over those of grains [-] (Eq. 28)
+  double gamma = 1;               ///< contact distance over the sum of radii [-] (Eq. 19)
   Tension tension = Tension::none;
   FrictionLimit friction_limit = FrictionLimit::total_force;
-  double skin = 0.2;            ///< extra reach of the neighbour lists over d [-]
+  double skin = 0.2;  ///< extra reach of the neighbour lists over d [-]
 
   // the bed
-  int count = 0;                ///< number of grains; derived from bed_thickness when the case gives that
-  double length = 0.5;          ///< period in x [m]
+  int count = 0;        ///< number of grains; derived from bed_thickness when the case gives that
+  double length = 0.5;  ///< period in x [m]
   Floor floor = Floor::plane;
   double lattice_gap = 0.001;   ///< gap between the grains of the starting lattice over d [-]
   unsigned seed = 1;            ///< of the diameters and of the lattice's small shifts

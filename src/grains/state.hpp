@@ -24,10 +24,10 @@ struct FluidForce {
 /// Everything that changes with time, one entry a grain, in the order of the storage: grains are sorted in space
 /// whenever the neighbour lists are rebuilt, and every array moves with them; id names a grain for life.
 struct State {
-  Array x, y;        ///< centre [m], 0 <= x < length
-  Array u, v;        ///< velocity [m/s]
-  Array omega;       ///< spin [1/s], counter-clockwise positive
-  Array diameter;    ///< [m]
+  Array x, y;      ///< centre [m], 0 <= x < length
+  Array u, v;      ///< velocity [m/s]
+  Array omega;     ///< spin [1/s], counter-clockwise positive
+  Array diameter;  ///< [m]
   std::vector<std::int32_t> id;
   FluidForce fluid;
   Array impulse_x, impulse_y;  ///< what the fluid gave the grain since the last reset [N s]
