@@ -1,0 +1,10 @@
+# Builds measured data of data/ into a library: TARGET gets a source file that defines what report/references.hpp declares.
+function(livebed_embed_references target)
+  set(folder ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
+  foreach(name mao1986_livebed_depth mao1986_livebed_profiles)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/data/${name}.csv)
+    file(READ ${folder}/data/${name}.csv ${name})
+  endforeach()
+  configure_file(${folder}/cmake/references.cpp.in ${CMAKE_BINARY_DIR}/references.cpp @ONLY)
+  target_sources(${target} PRIVATE ${CMAKE_BINARY_DIR}/references.cpp)
+endfunction()

@@ -1,0 +1,49 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/table.hpp"
+#include "io/vtk.hpp"
+#include "report/snapshot.hpp"
+
+namespace livebed::report {
+
+/// The bed at one time.
+struct BedLine {
+  double time = 0;           ///< [s]
+  std::vector<double> x, y;  ///< [m]
+};
+
+/// All lines of a run.
+struct BedHistory {
+  std::vector<double> time;            ///< [s]
+  std::vector<double> x;               ///< [m]
+  std::vector<std::vector<double>> y;  ///< [m], [time][x]
+  BedLine nearest(double t) const;
+};
+
+/// What a run has left in its folder so far; everything but the resolved case may be missing.
+struct RunFolder {
+  io::Path path;
+  std::string case_text;  ///< case.resolved.toml
+  std::string title;
+  std::optional<double> time_scale;  ///< T [s]
+  double theta = 0;                  ///< nominal [-], 0 when the case tells none
+  std::optional<Pipe> pipe;          ///< from pipe.vtp
+  nlohmann::ordered_json summary;    ///< null while the run is not finished
+  std::optional<io::Table> series;
+  std::optional<BedHistory> bed;
+  std::vector<io::TimedFile> fields, grains;  ///< of fields.pvd and grains.pvd
+  std::string log_end;                        ///< last lines of log.txt
+  std::vector<std::string> missing;           ///< sentences for the reader
+
+  /// Level of the bed at t = 0 [m]: summary.json's or the mean of the first line outside the pipe; NaN without either.
+  double original_level() const;
+};
+
+/// Reads the folder.  Fault (input/output) when it is no run folder or a file in it is damaged.
+RunFolder read_run(const io::Path& folder);
+
+}  // namespace livebed::report
