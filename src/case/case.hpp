@@ -35,7 +35,8 @@ struct Case {
   coupling::Params coupling;
   TimeParams time;
   OutputParams output;
-  double bed_thickness = 0.05;  ///< [m], nominal level of the bed: the run measures the true one after the packing
+  double bed_thickness = 0.05;  ///< [m], level of the bed: nominal until the packing has shown the true one
+  double measured_level = 0;    ///< [m], that true one; 0 before the packing
 
   /// Where one key can stand for another (current.theta or current.mean_speed, ...): the ones the case was given by.
   std::vector<std::string> given;

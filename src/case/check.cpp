@@ -25,7 +25,7 @@ flow::Profile log_law_of(flow::Profile profile) {
 void derive_bed(Case& c) {
   const grains::Params& g = c.grains;
   if (c.is_given("bed.count"))
-    c.bed_thickness = thickness_of(g.count, g.length, g.diameter, g.spread);
+    c.bed_thickness = c.measured_level > 0 ? c.measured_level : thickness_of(g.count, g.length, g.diameter, g.spread);
   else
     c.grains.count = static_cast<int>(
         std::lround(std::min(2.0 * most_grains, count_for(c.bed_thickness, g.length, g.diameter, g.spread))));
@@ -92,7 +92,7 @@ private:
 /// Window of fine cells along one direction.
 void check_window(const Combination& keys, const char* from_name, const char* to_name, const char* across_name,
                   double from, double to, double across) {
-  keys.fault_if(from != 0 && to <= from, "{} = {} m is not left of {} = {} m", from_name, from, to_name, to);
+  keys.fault_if(from != 0 && to <= from, "{} = {} m must be smaller than {} = {} m", from_name, from, to_name, to);
   keys.fault_if(to > across, "{} = {} m is outside the box, {} = {} m", to_name, to, across_name, across);
 }
 
@@ -121,6 +121,13 @@ void derive(Case& c) {
   derive_times(c);
   if (c.is_given("contact.damping") && c.grains.damping == 0) c.grains.restitution = 1;
   c.grains = grains::derive(c.grains);
+}
+
+void derive_at_level(Case& c, double level) {
+  // From here on the grains are what they are: their number is given, the thickness follows.
+  std::replace(c.given.begin(), c.given.end(), std::string("bed.thickness"), std::string("bed.count"));
+  c.measured_level = level;
+  derive(c);
 }
 
 void check(const Case& c, const Sources& sources, Faults& faults) {
@@ -157,6 +164,9 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
       .fault_if(c.is_given("bed.thickness") && bed > 0 && bed < d,
                 "bed.thickness = {} m is less than one grain, grains.diameter = {} m; 0 is a case without grains", bed,
                 d);
+  keys({"bed.level", "bed.thickness"})
+      .fault_if(c.measured_level > 0 && c.is_given("bed.thickness"),
+                "bed.level = {} m contradicts bed.thickness = {} m: it goes with bed.count", c.measured_level, bed);
   keys({"bed.thickness", "grains.diameter", "mesh.length"})
       .fault_if(c.grains.count > most_grains, "bed.thickness = {} m needs more than {} grains of {} m", bed,
                 most_grains, d);
@@ -170,6 +180,13 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
           "coupling.kernel = {} reaches {:.4g} m, less than half a cell of {} m: give at least {:.3g}",
           c.coupling.kernel, c.coupling.kernel * d, std::max(mesh.cell_x, mesh.cell_y),
           0.5 * std::max(mesh.cell_x, mesh.cell_y) / d);
+
+  keys({"coupling.kernel", "grains.diameter", "mesh.cell_x", "mesh.cell_y"})
+      .fault_if(c.coupling.mode != coupling::Mode::none &&
+                    c.coupling.kernel * d > most_cells_in_kernel * std::min(mesh.cell_x, mesh.cell_y),
+                "coupling.kernel = {} reaches {:.4g} m, more than {} cells of {} m: give at most {:.3g}",
+                c.coupling.kernel, c.coupling.kernel * d, most_cells_in_kernel, std::min(mesh.cell_x, mesh.cell_y),
+                most_cells_in_kernel * std::min(mesh.cell_x, mesh.cell_y) / d);
 
   // the pipe
   if (pipe.present) {
@@ -221,6 +238,14 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
   keys({"current.roughness", "current.profile"})
       .fault_if(current.profile == flow::Profile::smooth && current.roughness > 0,
                 "current.roughness = {} m contradicts current.profile = \"smooth\"", current.roughness);
+
+  keys({"current.theta", "current.mean_speed", "current.shear_velocity", "current.profile", "current.roughness",
+        "mesh.height", "bed.thickness", "bed.count", "grains.diameter", "grains.density", "flow.density",
+        "flow.viscosity"})
+      .fault_if(bed < mesh.height && c.grains.density > c.flow.density &&
+                    !(c.theta > 0 && std::isfinite(c.theta) && current.mean_speed > 0),
+                "the current is too weak for its log law: theta = {:.3g}, u* = {:.3g} m/s, mean speed {:.3g} m/s",
+                c.theta, current.shear_velocity, current.mean_speed);
 
   // time
   keys({"flow.max_step", "time.grain_step"})

@@ -23,6 +23,8 @@ inline constexpr double roughness_over_diameter = 2.5;
 inline constexpr int most_grains = 100'000'000;
 /// Fewer cells than this across the pipe cannot turn the flow round it.
 inline constexpr double least_cells_across_pipe = 8;
+/// More cells than this inside the half-width of the transfer kernel cost more than they tell.
+inline constexpr double most_cells_in_kernel = 20;
 /// A larger estimate of the static overlap at the bottom of the bed over d earns a note: the bed would be too soft.
 inline constexpr double overlap_to_note = 0.01;
 
@@ -35,6 +37,10 @@ double scour_time_scale(double D, double d, double s, double g, double theta);
 
 /// Fills every derived number of a case whose given keys are set; c.given says which of the alternatives they are.
 void derive(Case& c);
+
+/// The same once the packing has shown where the bed's level truly is [m]: thickness, pipe, approaching current and
+/// times follow it; the number of grains stays and counts as given from here on.
+void derive_at_level(Case& c, double level);
 
 /// Adds a fault for every combination of keys that makes no sense.  Combinations with a key that is bad already are
 /// passed over.

@@ -131,7 +131,8 @@ Converted convert(const Row& row, const toml::node& node) {
   return {node.as_string()->get(), ""};
 }
 
-/// The TOML node of a value given outside a file: TOML as it stands, or else a string without its quotes.
+/// The TOML node of a value given outside a file: TOML as it stands, or else a string without its quotes.  Throws
+/// toml::parse_error when it is not even text.
 toml::table loose_value(const Row& row, const std::string& text) {
   const bool wants_string = row.type == Type::word || row.type == Type::text;
   if (!wants_string || text.starts_with('"')) {
@@ -141,7 +142,7 @@ toml::table loose_value(const Row& row, const std::string& text) {
       // not TOML: a bare string such as 0.36 mm
     }
   }
-  return toml::table{{"v", text}};
+  return toml::parse("v = " + written(Value(text)));
 }
 
 /// "; did you mean coupling.drag (paper)?" or nothing.
@@ -168,6 +169,10 @@ std::vector<std::string> table_names() {
     if (names.empty() || names.back() != row.name.substr(0, dot)) names.push_back(row.name.substr(0, dot));
   }
   return names;
+}
+
+std::string meant_table(const std::string& meant) {
+  return meant.empty() ? "" : fmt::format("; did you mean [{}]?", meant);
 }
 
 /// The TOML parser's complaint in our words.
@@ -286,33 +291,39 @@ private:
         faults_.add(line_of(node), "{} = {} is {}; {} is a table of keys", name, as_written(node), kind_of(node), name);
       } else if (node.is_table()) {
         const std::string meant = nearest(name, tables);
-        faults_.add(line_of(node), "unknown table [{}]{}", name,
-                    meant.empty() ? "" : fmt::format("; did you mean [{}]?", meant));
+        faults_.add(line_of(node), "unknown table [{}]{}", name, meant_table(meant));
       } else {
         faults_.add(line_of(node), "unknown key {}{}", name, suggestion(name));
       }
     }
   }
 
-  void add_key(const std::string& name, const toml::node& node) {
+  /// The row of a key that may be given; notes a fault and returns null for any other.
+  const Row* row_to_set(const std::string& name, const Origin& origin) {
     const Row* row = find_row(name);
-    if (!row)
-      faults_.add(line_of(node), "unknown key {}{}", name, suggestion(name));
-    else if (row->derived)
-      faults_.add(line_of(node), "{} cannot be given: it is computed ({})", name, row->meaning);
-    else
+    if (!row) faults_.add(origin, "unknown key {}{}", name, suggestion(name));
+    if (row && row->derived) faults_.add(origin, "{} cannot be given: it is computed ({})", name, row->meaning);
+    return row && !row->derived ? row : nullptr;
+  }
+
+  void add_key(const std::string& name, const toml::node& node) {
+    if (node.is_table() && !find_row(name)) {
+      const std::string meant = nearest(name.substr(name.find('.') + 1), table_names());
+      faults_.add(line_of(node), "unknown table [{}]{}", name, meant_table(meant));
+    } else if (const Row* row = row_to_set(name, line_of(node))) {
       set(*row, convert(*row, node), line_of(node));
+    }
   }
 
   void add_override(const std::string& name, const std::string& text) {
     const Origin origin{Origin::Kind::command_line, 0};
-    const Row* row = find_row(name);
-    if (!row)
-      faults_.add(origin, "unknown key {}{}", name, suggestion(name));
-    else if (row->derived)
-      faults_.add(origin, "{} cannot be given: it is computed ({})", name, row->meaning);
-    else
+    const Row* row = row_to_set(name, origin);
+    if (!row) return;
+    try {
       set(*row, convert(*row, *loose_value(*row, text).get("v")), origin);
+    } catch (const toml::parse_error&) {
+      set(*row, {{}, fmt::format("{} is not UTF-8 text", name)}, origin);
+    }
   }
 
   /// Of keys that stand for one another the uppermost layer decides: --set before the file before the preset.  Two of

@@ -13,7 +13,8 @@ std::string resolved_text(const Case& c);
 /// Writes that text.  Throws base::Fault (input_output) when the file cannot be written.
 void write_resolved(const Case& c, const std::filesystem::path& path);
 
-/// FNV-1a, 64 bits, of the resolved text, as 16 hexadecimal digits: equal cases have equal hashes.
+/// FNV-1a, 64 bits, of the resolved text, as 16 hexadecimal digits: equal cases have equal hashes.  `check` and
+/// committed results tell that of the case before its packing.
 std::string hash(const Case& c);
 
 }  // namespace livebed::casefile

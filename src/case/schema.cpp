@@ -192,6 +192,9 @@ void add_bed(std::vector<Row>& s) {
                   .from("Sec. 4.4"));
   s.push_back(
       integer("bed.count", grains(&G::count)).within(0, most_grains).says("number of grains").from("Sec. 4.3: 6240"));
+  s.push_back(real("bed.level", "m", at(&Case::measured_level))
+                  .at_least(0)
+                  .says("true level of the packed bed; a run writes it into its resolved case; 0: not known yet"));
   s.push_back(word<grains::Floor>("bed.floor", grains(&G::floor),
                                   {{"grains", grains::Floor::grains}, {"plane", grains::Floor::plane}})
                   .says("the bottom of the bed: a row of fixed grains or a smooth plane")
@@ -396,7 +399,7 @@ std::string written(const Value& value) {
   std::string quoted = "\"";
   for (const char c : std::get<std::string>(value)) {
     if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
       quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
     else
       quoted += c;

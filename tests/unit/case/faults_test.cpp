@@ -50,6 +50,8 @@ const Bad bad_cases[] = {
      "bad.toml:4: unknown key flow.restitution; did you mean contact.restitution?"},
     {"unknown_key_like_none", "speed_of_light = 3e8\n", "bad.toml:3: unknown key current.speed_of_light"},
     {"unknown_table", "[grians]\ndiameter = 1\n", "bad.toml:3: unknown table [grians]; did you mean [grains]?"},
+    {"nested_table", "[flow.current]\ntheta = 0.3\n",
+     "bad.toml:3: unknown table [flow.current]; did you mean [current]?"},
     {"table_in_a_key", "[pipe.diameter]\nx = 1\n",
      "bad.toml:3: pipe.diameter = {...} is a table; a length (m, cm, mm) is expected"},
     {"list_of_tables", "[[pipe]]\nx = 0.2\n", "bad.toml:3: pipe = [...] is an array; pipe is a table of keys"},
@@ -136,7 +138,7 @@ const Bad bad_cases[] = {
      "bad.toml:4: bed.thickness = 0.05 m needs more than 100000000 grains of 2e-06 m"},
     {"floating_grains", "[grains]\ndensity = 900\n",
      "bad.toml:4: grains.density = 900 kg/m3 does not sink in water of flow.density = 1000 kg/m3"},
-    {"boulders", "[grains]\ndiameter = 0.06\n[bed]\ncount = 3\n",
+    {"boulders", "[grains]\ndiameter = 0.06\n[bed]\ncount = 3\n[coupling]\nmode = \"none\"\n",
      "bad.toml:4: grains.diameter = 0.06 m leaves fewer than 10 grains in mesh.length = 0.5 m"},
     {"cells_too_wide", "[mesh]\ncell_x = \"8 mm\"\n",
      "bad.toml:4: mesh.cell_x = 0.008 m gives 6.25 cells across the pipe; 8 are needed: at most 0.00625 m"},
@@ -147,12 +149,16 @@ const Bad bad_cases[] = {
     {"fine_window_outside", "[mesh]\nfine_x_to = 0.6\n",
      "bad.toml:4: mesh.fine_x_to = 0.6 m is outside the box, mesh.length = 0.5 m"},
     {"fine_window_reversed", "[mesh]\nfine_y_from = 0.1\nfine_y_to = 0.05\n",
-     "bad.toml:5: mesh.fine_y_from = 0.1 m is not left of mesh.fine_y_to = 0.05 m"},
+     "bad.toml:5: mesh.fine_y_from = 0.1 m must be smaller than mesh.fine_y_to = 0.05 m"},
     {"pipe_outside_the_fine_window", "[mesh]\ngrowth = 1.05\nfine_x_from = 0.3\nfine_x_to = 0.4\n",
      "bad.toml:6: the pipe, 0.175 m to 0.225 m, leaves the fine window mesh.fine_x_from = 0.3 m to mesh.fine_x_to = "
      "0.4 m"},
     {"kernel_between_the_cells", "[coupling]\nkernel = 0.5\n",
      "bad.toml:4: coupling.kernel = 0.5 reaches 0.001 m, less than half a cell of 0.0025 m: give at least 0.625"},
+    {"kernel_over_too_many_cells", "[coupling]\nkernel = 10\n[mesh]\ncell_x = 0.0005\n",
+     "bad.toml:4: coupling.kernel = 10 reaches 0.02 m, more than 20 cells of 0.0005 m: give at most 5"},
+    {"level_beside_thickness", "[bed]\nthickness = 0.05\nlevel = 0.04\n",
+     "bad.toml:5: bed.level = 0.04 m contradicts bed.thickness = 0.05 m: it goes with bed.count"},
     // walls
     {"rough_pipe_without_roughness", "[pipe]\nwall = \"rough\"\n",
      "bad.toml:4: pipe.wall = \"rough\" needs pipe.roughness, the ks of the pipe"},
@@ -219,6 +225,16 @@ TEST(faults, of_the_command_line_name_it) {
   EXPECT_EQ(complaint(good, {"pipe.y=1"}),
             "--set: pipe.y cannot be given: it is computed (centre above the floor of the box, at the nominal bed "
             "level)\n1 fault, nothing was run");
+}
+
+TEST(faults, a_current_too_weak_for_its_log_law_is_told) {
+  EXPECT_EQ(complaint("[current]\nshear_velocity = 1e-9\nprofile = \"smooth\"\n"),
+            "bad.toml:2: the current is too weak for its log law: theta = 3.09e-17, u* = 1e-09 m/s, mean speed 0 m/s\n"
+            "1 fault, nothing was run");
+}
+
+TEST(faults, a_setting_that_is_not_text_is_told) {
+  EXPECT_EQ(complaint(good, {"case.title=\xff\xfe"}), "--set: case.title is not UTF-8 text\n1 fault, nothing was run");
 }
 
 TEST(faults, of_a_wrong_value_bring_no_others_along) {

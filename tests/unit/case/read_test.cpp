@@ -219,6 +219,20 @@ TEST(resolved, comes_back_whatever_was_given) {
   }
 }
 
+TEST(resolved, comes_back_after_the_packing) {
+  for (const char* bed : {"bed.count=6240", "bed.thickness=0.05"}) {
+    Case c = read("[current]\nmean_speed = 0.8\n", {bed});
+    const int count = c.grains.count;
+    derive_at_level(c, 0.0431);
+    EXPECT_EQ(c.grains.count, count);
+    EXPECT_EQ(c.bed_thickness, 0.0431);
+    EXPECT_EQ(c.flow.current.bed_level, 0.0431);
+    EXPECT_EQ(c.flow.pipe.y, 0.0431 + 0.025);
+    EXPECT_EQ(c.flow.current.mean_speed, 0.8);
+    expect_same(c, read(resolved_text(c)));
+  }
+}
+
 TEST(resolved, can_be_started_from_with_other_keys) {
   const std::string resolved = resolved_text(read("[current]\ntheta = 0.25\n"));
   const Case c = read(resolved, {"current.theta=0.3", "bed.count=5000"});
