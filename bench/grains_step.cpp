@@ -1,0 +1,73 @@
+#include <benchmark/benchmark.h>
+
+#include "base/loops.hpp"
+#include "grains/measures.hpp"
+#include "grains/packing.hpp"
+
+/// Speed of a grain step on a settled bed: friction, history and dashpots on, 5 % size spread, nothing asleep.
+namespace {
+
+using namespace livebed;
+using namespace livebed::grains;
+
+/// A settled bed of 780 grains, packed once.
+const Bed& small_bed() {
+  static const Bed bed = [] {
+    Params p;
+    p.stiffness = 5500;
+    p.restitution = 0.3;
+    p.count = 780;
+    p.length = 0.063;
+    return pack(p).bed;
+  }();
+  return bed;
+}
+
+/// The small bed side by side until it holds `count` grains; its period makes the seams fit.
+Bed bed_of(int count) {
+  const Bed& tile = small_bed();
+  const int tiles = std::max(1, count / tile.params.count);
+  Params p = tile.params;
+  p.count = tiles * tile.params.count;
+  p.length *= tiles;
+  Bed bed = make_bed(p);
+  for (int i = 0; i < p.count; ++i) {
+    const int from = i % tile.params.count;
+    bed.state.x[i] = tile.state.x[from] + i / tile.params.count * tile.params.length;
+    bed.state.y[i] = tile.state.y[from];
+    bed.state.diameter[i] = tile.state.diameter[from];
+  }
+  advance(bed, 2000);  // friction comes back, lists and caches warm up
+  return bed;
+}
+
+void report(benchmark::State& state, const Bed& bed, double steps) {
+  state.counters["grains"] = bed.params.count;
+  state.counters["contacts_per_grain"] = measure_contacts(bed).per_grain;
+  state.counters["grain_steps_per_second"] = benchmark::Counter(steps * bed.params.count, benchmark::Counter::kIsRate);
+}
+
+void step(benchmark::State& state) {
+  base::set_threads(static_cast<int>(state.range(1)));
+  Bed bed = bed_of(static_cast<int>(state.range(0)));
+  const int steps = 50;  // a call of advance, as between two flow steps
+  for ([[maybe_unused]] auto pass : state) advance(bed, steps);
+  report(state, bed, static_cast<double>(steps * state.iterations()));
+  base::set_threads(1);
+}
+BENCHMARK(step)
+    ->ArgNames({"grains", "threads"})
+    ->ArgsProduct({{6240, 199680}, {1, 2}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// The lists alone: sort, search, histories.
+void lists(benchmark::State& state) {
+  Bed bed = bed_of(static_cast<int>(state.range(0)));
+  const Reach reach = reach_of(bed.params);
+  for ([[maybe_unused]] auto pass : state) rebuild(bed.state, bed.contacts, bed.scratch, reach, bed.pipe);
+  report(state, bed, static_cast<double>(state.iterations()));
+}
+BENCHMARK(lists)->ArgName("grains")->Arg(6240)->Arg(199680)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
