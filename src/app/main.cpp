@@ -43,7 +43,10 @@ int run(int argc, char** argv) {
   app::Action chosen;
   app::add_new(program, chosen);
   app::add_check(program, chosen);
+  app::add_run(program, chosen);
+  app::add_resume(program, chosen);
   app::add_keys(program, chosen);
+  app::add_report(program, chosen);
 
   try {
     program.parse(argc, argv);

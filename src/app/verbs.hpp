@@ -12,7 +12,10 @@ namespace livebed::app {
 using Action = std::function<base::Exit()>;
 
 void add_new(CLI::App& app, Action& chosen);
+void add_run(CLI::App& app, Action& chosen);
+void add_resume(CLI::App& app, Action& chosen);
 void add_check(CLI::App& app, Action& chosen);
 void add_keys(CLI::App& app, Action& chosen);
+void add_report(CLI::App& app, Action& chosen);
 
 }  // namespace livebed::app
