@@ -19,26 +19,38 @@ constexpr Colour white{255, 255, 255}, ink{30, 30, 34}, pipe_fill{225, 228, 232}
 constexpr int letter = 2;                                               ///< pixels a dot of the text
 constexpr int left = 64, right = 20, top = 34, bottom = 52, bars = 62;  ///< margins; bars: strip of the colour scales
 
-/// Speeds in cells, with bilinear look-up between centres.
-class Speeds {
+/// Velocity in cells, with bilinear look-up between centres.  Cells count by their open part, so that the pipe does not
+/// slow down the water beside it in the picture.
+class Velocities {
 public:
-  explicit Speeds(const io::Grid& grid) : nx_(grid.nx()), ny_(grid.ny()), u_(io::array(grid.cells, "velocity").values) {
+  explicit Velocities(const io::Grid& grid)
+      : nx_(grid.nx()),
+        ny_(grid.ny()),
+        velocity_(io::array(grid.cells, "velocity").values),
+        open_(velocity_.size() / 3, 1.0) {
     for (int i = 0; i < nx_; ++i) x_.push_back((grid.x[i] + grid.x[i + 1]) / 2);
     for (int j = 0; j < ny_; ++j) y_.push_back((grid.y[j] + grid.y[j + 1]) / 2);
+    if (io::has_array(grid.cells, "open")) open_ = io::array(grid.cells, "open").values;
   }
-  /// (u, v) [m/s] at a point.
+  /// (u, v) [m/s] at a point; 0 where nothing round it is open.
   std::pair<double, double> at(double x, double y) const {
     const auto [i, fx] = place(x_, x);
     const auto [j, fy] = place(y_, y);
-    const auto mean = [&](int c) {
-      const auto cell = [&](int a, int b) {
-        return u_[3 * (static_cast<std::size_t>(b) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(a)) +
-                  static_cast<std::size_t>(c)];
-      };
-      const int i1 = std::min(i + 1, nx_ - 1), j1 = std::min(j + 1, ny_ - 1);
-      return (1 - fy) * ((1 - fx) * cell(i, j) + fx * cell(i1, j)) + fy * ((1 - fx) * cell(i, j1) + fx * cell(i1, j1));
+    double u = 0, v = 0, weights = 0;
+    const auto add = [&](int a, int b, double weight) {
+      const auto cell = static_cast<std::size_t>(std::min(b, ny_ - 1)) * static_cast<std::size_t>(nx_) +
+                        static_cast<std::size_t>(std::min(a, nx_ - 1));
+      weight *= open_[cell];
+      u += weight * velocity_[3 * cell];
+      v += weight * velocity_[3 * cell + 1];
+      weights += weight;
     };
-    return {mean(0), mean(1)};
+    add(i, j, (1 - fx) * (1 - fy));
+    add(i + 1, j, fx * (1 - fy));
+    add(i, j + 1, (1 - fx) * fy);
+    add(i + 1, j + 1, fx * fy);
+    if (weights <= 0) return {0.0, 0.0};
+    return {u / weights, v / weights};
   }
 
 private:
@@ -52,7 +64,8 @@ private:
   }
   int nx_, ny_;
   std::vector<double> x_, y_;
-  const std::vector<double>& u_;
+  const std::vector<double>& velocity_;
+  std::vector<double> open_;
 };
 
 /// From metres to pixels.
@@ -79,18 +92,18 @@ View view_of(const Snapshot& s, const SnapshotOptions& options) {
   return {from, s.water.y.front(), scale, width, std::max(1, static_cast<int>(std::lround(height * scale)))};
 }
 
-void draw_water(Picture& picture, const View& view, const Speeds& speeds, const SnapshotOptions& options,
+void draw_water(Picture& picture, const View& view, const Velocities& water, const SnapshotOptions& options,
                 double largest) {
   for (int j = 0; j < view.height; ++j)
     for (int i = 0; i < view.width; ++i) {
-      const auto [u, v] = speeds.at(view.x0 + (i + 0.5) / view.scale, view.y0 + (view.height - j - 0.5) / view.scale);
+      const auto [u, v] = water.at(view.x0 + (i + 0.5) / view.scale, view.y0 + (view.height - j - 0.5) / view.scale);
       picture.set(left + i, top + j, viridis(std::hypot(u, v) / largest));
     }
   if (!options.arrows) return;
   constexpr double spacing = 44, longest = 36;  // [pixels]
   for (double y = spacing / 2; y < view.height; y += spacing)
     for (double x = spacing / 2; x < view.width; x += spacing) {
-      const auto [u, v] = speeds.at(view.x0 + x / view.scale, view.y0 + (view.height - y) / view.scale);
+      const auto [u, v] = water.at(view.x0 + x / view.scale, view.y0 + (view.height - y) / view.scale);
       const double length = longest * std::hypot(u, v) / largest;
       if (length < 3) continue;
       const double ex = u / std::hypot(u, v), ey = -v / std::hypot(u, v);
@@ -209,12 +222,14 @@ Picture draw(const Snapshot& snapshot, const SnapshotOptions& options) {
   const View view = view_of(snapshot, options);
   // A scale that ends at zero would have no colours: still water and resting grains get 1 cm/s.
   constexpr double least = 0.01;
-  const double water = std::max(least, options.water_speed > 0 ? options.water_speed : largest_water_speed(snapshot));
-  const double grain = std::max(least, options.grain_speed > 0 ? options.grain_speed : largest_grain_speed(snapshot));
+  const double water_end =
+      std::max(least, options.water_speed > 0 ? options.water_speed : largest_water_speed(snapshot));
+  const double grain_end =
+      std::max(least, options.grain_speed > 0 ? options.grain_speed : largest_grain_speed(snapshot));
 
   Picture picture(options.width, top + view.height + bottom + bars, white);
-  draw_water(picture, view, Speeds(snapshot.water), options, water);
-  if (snapshot.grains) draw_grains(picture, view, *snapshot.grains, grain);
+  draw_water(picture, view, Velocities(snapshot.water), options, water_end);
+  if (snapshot.grains) draw_grains(picture, view, *snapshot.grains, grain_end);
   if (snapshot.pipe) {
     const double x = view.px(snapshot.pipe->x), y = view.py(snapshot.pipe->y),
                  r = snapshot.pipe->diameter / 2 * view.scale;
@@ -224,8 +239,8 @@ Picture draw(const Snapshot& snapshot, const SnapshotOptions& options) {
   for (const Overlay& overlay : options.overlays) draw_overlay(picture, view, overlay);
   draw_frame(picture, view, snapshot, options);
   const int y = top + view.height + bottom + 12, half = view.width / 2;
-  draw_bar(picture, left, y, half, "water [m/s]", water, viridis);
-  if (snapshot.grains) draw_bar(picture, left + half + 20, y, half - 20, "grains [m/s]", grain, sand);
+  draw_bar(picture, left, y, half, "water [m/s]", water_end, viridis);
+  if (snapshot.grains) draw_bar(picture, left + half + 20, y, half - 20, "grains [m/s]", grain_end, sand);
   return picture;
 }
 
