@@ -1,0 +1,101 @@
+#include "app/run_options.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <unistd.h>
+
+#include "base/version.hpp"
+
+namespace livebed::app {
+
+namespace {
+
+void on_signal(int signal) { run::request_stop(signal); }
+
+std::string clock_time() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::tm local{};
+  localtime_r(&now, &local);
+  std::strftime(text, sizeof text, "%H:%M:%S", &local);
+  return text;
+}
+
+std::string duration(double seconds) {
+  const int s = static_cast<int>(seconds + 0.5);
+  return s >= 3600 ? fmt::format("{} h {:02d} min", s / 3600, s / 60 % 60) : fmt::format("{}:{:02d}", s / 60, s % 60);
+}
+
+/// Progress as a bar that is redrawn, or as a line every ten seconds.
+class Progress {
+public:
+  explicit Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
+
+  void operator()(double t, double end, double S_over_D, double speed, double left) {
+    if (quiet_) return;
+    const std::string numbers = t < 0 ? fmt::format("spin-up, t = {:.3f} s", t)
+                                      : fmt::format("t = {:.3f} of {:.3f} s, S/D = {:.3f}, {:.3g} s/s, {} left", t, end,
+                                                    S_over_D, speed, duration(left));
+    if (terminal_) {
+      const int filled = t <= 0 ? 0 : static_cast<int>(30 * t / end);
+      fmt::print(stderr, "\r[{:=<{}}{:>{}}] {}\033[K", "", filled, "", 30 - filled, numbers);
+      drawn_ = true;
+    } else if (std::chrono::steady_clock::now() >= next_) {
+      next_ = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+      fmt::print(stderr, "{}\n", numbers);
+    }
+    std::fflush(stderr);
+  }
+  void clear() {
+    if (drawn_) fmt::print(stderr, "\r\033[K");
+    drawn_ = false;
+  }
+
+private:
+  bool quiet_, terminal_, drawn_ = false;
+  std::chrono::steady_clock::time_point next_{};
+};
+
+}  // namespace
+
+void add_run_arguments(CLI::App& verb, RunArguments& arguments) {
+  verb.add_option("--wall-limit", arguments.wall_limit,
+                  "stop with a checkpoint after this many seconds of wall time (exit 6)")
+      ->check(CLI::PositiveNumber);
+  verb.add_flag("--quiet", arguments.quiet, "no progress");
+}
+
+base::Exit run_with(const std::filesystem::path& folder, const RunArguments& arguments,
+                    const std::function<base::Exit(const run::Options&)>& work) {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  Progress progress(arguments.quiet);
+  std::ofstream log;
+  run::Options options;
+  options.wall_limit = arguments.wall_limit;
+  options.say = [&](const std::string& line) {
+    progress.clear();
+    if (!arguments.quiet) fmt::print(stderr, "{}\n", line);
+    // The folder appears only when the run has found it free.
+    if (!log.is_open() && std::filesystem::is_directory(folder)) {
+      log.open(folder / "log.txt", std::ios::app);
+      log << clock_time() << " livebed " << base::version() << " (" << base::commit() << ", " << base::compiler()
+          << ")\n";
+    }
+    if (log.is_open()) log << clock_time() << ' ' << line << std::endl;
+  };
+  options.progress = [&](double t, double end, double S, double speed, double left) {
+    progress(t, end, S, speed, left);
+  };
+  const base::Exit code = work(options);
+  progress.clear();
+  if (code == base::Exit::signal)
+    return static_cast<base::Exit>(static_cast<int>(base::Exit::signal) + run::stop_signal());
+  fmt::print("{}\n", (folder / "summary.json").string());
+  return code;
+}
+
+}  // namespace livebed::app

@@ -1,0 +1,186 @@
+#include "run/checkpoint.hpp"
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+
+#include "base/fault.hpp"
+#include "base/version.hpp"
+#include "case/check.hpp"
+#include "case/read.hpp"
+#include "case/resolved.hpp"
+#include "io/hdf5.hpp"
+
+namespace livebed::run {
+
+namespace {
+
+constexpr std::int64_t format_version = 1;
+
+/// Calls visit(name, field) for every field of the flow that the next step reads.
+template <class FlowState, class Visit>
+void each_field(FlowState& s, Visit&& visit) {
+  visit("u", s.u), visit("v", s.v), visit("p", s.p), visit("k", s.k), visit("epsilon", s.epsilon), visit("nut", s.nut);
+  visit("u_old", s.u_old), visit("v_old", s.v_old), visit("rate_u", s.rate_u), visit("rate_v", s.rate_v);
+  visit("beta_u", s.load.beta_u), visit("beta_v", s.load.beta_v);
+  visit("force_u", s.load.force_u), visit("force_v", s.load.force_v);
+}
+
+/// Writes or reads one scalar: the same list of names serves both ways.
+template <class T>
+void pass(io::Group& group, const char* name, const T& value) {
+  if constexpr (std::is_same_v<T, bool>)
+    group.write(name, static_cast<std::int32_t>(value));
+  else
+    group.write(name, value);
+}
+template <class T>
+void pass(const io::Group& group, const char* name, T& value) {
+  if constexpr (std::is_same_v<T, bool>) {
+    std::int32_t number = 0;
+    group.read(name, number);
+    value = number != 0;
+  } else {
+    group.read(name, value);
+  }
+}
+
+/// Arrays of bytes travel as int32.
+template <class Vector>
+void write_array(io::Group& group, const char* name, const Vector& values) {
+  if constexpr (std::is_same_v<typename Vector::value_type, std::uint8_t>)
+    group.write(name, std::vector<std::int32_t>(values.begin(), values.end()));
+  else
+    group.write(name, values);
+}
+template <class Vector>
+void read_array(const io::Group& group, const char* name, Vector& values) {
+  if constexpr (std::is_same_v<typename Vector::value_type, std::uint8_t>) {
+    std::vector<std::int32_t> wide;
+    group.read(name, wide);
+    values.assign(wide.begin(), wide.end());
+  } else {
+    group.read(name, values);
+  }
+}
+
+template <class GroupLike, class ClockLike, class WallLike, class ProgressLike>
+void pass_scalars(GroupLike& g, ClockLike& clock, WallLike& wall, ProgressLike& p) {
+  pass(g, "flow_steps", clock.flow_steps), pass(g, "grain_steps", clock.grain_steps),
+      pass(g, "released", clock.released);
+  pass(g, "wall_flow", wall.flow), pass(g, "wall_grains", wall.grains);
+  pass(g, "wall_exchange", wall.exchange), pass(g, "wall_output", wall.output);
+  pass(g, "series_rows", p.series_rows), pass(g, "bed_rows", p.bed_rows), pass(g, "frames", p.frames);
+  pass(g, "checkpoints", p.checkpoints), pass(g, "series_offset", p.series_offset), pass(g, "bed_offset", p.bed_offset);
+  pass(g, "original_level", p.original.level), pass(g, "original_packed", p.original.packed);
+  pass(g, "theta_sum", p.theta_sum), pass(g, "theta_time", p.theta_time), pass(g, "largest_overlap", p.largest_overlap);
+  pass(g, "start_wall", p.start_wall);
+}
+
+template <class GroupLike, class BedLike>
+void pass_bed_scalars(GroupLike& g, BedLike& bed) {
+  pass(g, "pipe_present", bed.pipe.present), pass(g, "pipe_x", bed.pipe.x), pass(g, "pipe_y", bed.pipe.y);
+  pass(g, "pipe_diameter", bed.pipe.diameter);
+  auto& built = bed.contacts.pipe_built;
+  pass(g, "built_pipe_present", built.present), pass(g, "built_pipe_x", built.x), pass(g, "built_pipe_y", built.y);
+  pass(g, "built_pipe_diameter", built.diameter);
+  pass(g, "rebuilds", bed.contacts.rebuilds), pass(g, "steps", bed.steps);
+  pass(g, "pipe_impulse_x", bed.pipe_impulse.x), pass(g, "pipe_impulse_y", bed.pipe_impulse.y);
+}
+
+}  // namespace
+
+void save_checkpoint(const std::filesystem::path& file, Simulation& sim, const Progress& progress) {
+  io::Hdf5Writer writer(file);
+  io::Group root = writer.root();
+  root.write("format", format_version);
+  root.write("version", std::string(base::version()));
+  root.write("commit", std::string(base::commit()));
+  root.write("compiler", std::string(base::compiler()));
+  root.write("case", casefile::resolved_text(sim.resolved()));
+  root.write("bed_level", sim.resolved().bed_thickness);
+  Simulation::each_part(
+      sim, [&](flow::State& s, grains::Bed& bed, coupling::Coupler& coupler, Clock& clock, WallTimes& wall) {
+        io::Group flow = root.make("flow");
+        each_field(s, [&](const char* name, const base::Field& f) { flow.write(name, f); });
+        pass(flow, "step", std::as_const(s.step)), pass(flow, "time", std::as_const(s.time));
+        io::Group grains = root.make("grains");
+        if (bed.state.count() > 0) {
+          grains::each_array(bed, [&](const char* name, const auto& a) { write_array(grains, name, a); });
+          pass_bed_scalars(grains, std::as_const(bed));
+        }
+        io::Group exchange = root.make("exchange");
+        coupler.each_field([&](const char* name, const base::Field& f) { exchange.write(name, f); });
+        const coupling::ImpulseLedger& l = coupler.ledger();
+        exchange.write("ledger", std::vector<double>{l.to_grains.x, l.to_grains.y, l.to_flow.x, l.to_flow.y,
+                                                     l.carried.x, l.carried.y});
+        io::Group run = root.make("run");
+        pass_scalars(run, std::as_const(clock), std::as_const(wall), progress);
+      });
+  writer.save();
+}
+
+Restored load_checkpoint(const std::filesystem::path& file) {
+  const io::Hdf5Reader reader(file);
+  const io::Group root = reader.root();
+  std::int64_t format = 0;
+  root.read("format", format);
+  if (format != format_version)
+    base::fail(base::Exit::input_output,
+               "{}: checkpoint format {}, this program reads {}; resume with the program that wrote it", file.string(),
+               format, format_version);
+  std::string text, version, commit, compiler;
+  root.read("case", text);
+  root.read("version", version), root.read("commit", commit), root.read("compiler", compiler);
+  casefile::Case resolved = casefile::read_text(text, file.string() + ":case");
+  double level = 0;
+  root.read("bed_level", level);
+  if (resolved.grains.count > 0) casefile::derive_at_level(resolved, level);
+
+  grains::Bed bed;
+  if (resolved.grains.count > 0) {
+    bed = grains::make_bed(resolved.grains);
+    const io::Group grains = root.open("grains");
+    grains::each_array(bed, [&](const char* name, auto& a) { read_array(grains, name, a); });
+    pass_bed_scalars(grains, bed);
+  }
+  Restored result{Simulation(resolved, std::move(bed)), {}, {}};
+  Simulation::each_part(result.sim,
+                        [&](flow::State& s, grains::Bed&, coupling::Coupler& coupler, Clock& clock, WallTimes& wall) {
+                          const io::Group flow = root.open("flow");
+                          each_field(s, [&](const char* name, base::Field& f) { flow.read(name, f); });
+                          pass(flow, "step", s.step), pass(flow, "time", s.time);
+                          const io::Group exchange = root.open("exchange");
+                          coupler.each_field([&](const char* name, base::Field& f) { exchange.read(name, f); });
+                          std::vector<double> l;
+                          exchange.read("ledger", l);
+                          coupler.restore_ledger({{l.at(0), l.at(1)}, {l.at(2), l.at(3)}, {l.at(4), l.at(5)}});
+                          const io::Group run = root.open("run");
+                          pass_scalars(run, clock, wall, result.progress);
+                        });
+  const auto differs = [&](const char* what, const std::string& then, std::string_view now) {
+    if (then != now)
+      result.note += fmt::format("{}the checkpoint was written by {} {}, this is {}", result.note.empty() ? "" : "; ",
+                                 what, then, now);
+  };
+  differs("version", version, base::version());
+  differs("commit", commit, base::commit());
+  differs("compiler", compiler, base::compiler());
+  return result;
+}
+
+std::filesystem::path checkpoint_path(const std::filesystem::path& run_folder, std::int64_t flow_step) {
+  return run_folder / "checkpoints" / fmt::format("step_{:09d}.h5", flow_step);
+}
+
+std::vector<std::filesystem::path> list_checkpoints(const std::filesystem::path& run_folder) {
+  std::vector<std::filesystem::path> files;
+  const std::filesystem::path folder = run_folder / "checkpoints";
+  if (!std::filesystem::is_directory(folder)) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".h5") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace livebed::run

@@ -1,0 +1,134 @@
+#include "run/execute.hpp"
+
+#include <atomic>
+#include <chrono>
+
+#include "case/resolved.hpp"
+#include "grains/measures.hpp"
+#include "io/file.hpp"
+#include "run/observers.hpp"
+#include "run/summary.hpp"
+
+namespace livebed::run {
+
+namespace {
+
+std::atomic<int> stop_requested{0};
+
+using WallClock = std::chrono::steady_clock;
+double seconds_since(WallClock::time_point start) {
+  return std::chrono::duration<double>(WallClock::now() - start).count();
+}
+
+/// Steps until the end, a signal or a limit; writes what is due and the summary.
+base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::filesystem::path& folder,
+                          const Options& options) {
+  const casefile::Case& c = sim.resolved();
+  const auto start = WallClock::now();
+  const double time_start = sim.time();
+  auto last_word = start;
+  const auto finish = [&](const char* why, base::Exit code, bool checkpoint) {
+    if (checkpoint) observers.checkpoint(sim);
+    write_summary(folder, sim, observers.progress(), why);
+    options.say(fmt::format("ended at t = {:.4g} s: {}", sim.time(), why));
+    return code;
+  };
+  const auto show = [&] {
+    if (!options.progress || std::chrono::duration<double>(WallClock::now() - last_word).count() < 0.2) return;
+    last_word = WallClock::now();
+    const double speed = (sim.time() - time_start) / seconds_since(start);
+    options.progress(sim.time(), c.time.end, observers.scour_depth(), speed,
+                     speed > 0 ? (c.time.end - sim.time()) / speed : 0);
+  };
+  const auto limit_reached = [&] { return options.wall_limit > 0 && seconds_since(start) > options.wall_limit; };
+  bool just_released = false;
+  while (sim.time() < c.time.end || !sim.clock().released) {
+    try {
+      if (sim.clock().released) {
+        sim.step();
+      } else if (sim.time() < 0) {
+        sim.spin_up_step();
+      } else {
+        sim.release();
+        just_released = true;
+      }
+    } catch (const base::Fault& fault) {
+      const auto saved = list_checkpoints(folder);
+      const std::string good = saved.empty() ? "none was written yet" : saved.back().string();
+      const std::string message = fmt::format("{}; last good checkpoint: {}", fault.what(), good);
+      options.say(message);
+      throw base::Fault(fault.code(), message);
+    }
+    if (just_released) {
+      just_released = false;
+      options.say(fmt::format(
+          "grains released; end at t = {:.4g} s{}", c.time.end,
+          c.time_scale > 0 ? fmt::format(" = {:.3g} T, T = {:.3g} s", c.time.end / c.time_scale, c.time_scale) : ""));
+    }
+    if (sim.clock().released) observers.observe(sim);
+    if (stop_requested) return finish("stopped by a signal", base::Exit::signal, true);
+    if (limit_reached()) return finish("stopped by the wall-time limit", base::Exit::stopped_by_limit, true);
+    if (c.time.stop_at_equilibrium && observers.at_equilibrium(c)) return finish("equilibrium", base::Exit::ok, true);
+    show();
+  }
+  return finish("end of time", base::Exit::ok, true);
+}
+
+}  // namespace
+
+void request_stop(int signal) { stop_requested = signal; }
+int stop_signal() { return stop_requested; }
+
+base::Exit execute(const casefile::Case& given, const std::filesystem::path& folder, const Options& options) {
+  if (std::filesystem::exists(folder) && !(std::filesystem::is_directory(folder) && std::filesystem::is_empty(folder)))
+    base::fail(base::Exit::input_output,
+               "{} exists already; give another folder with --out, or continue it with: livebed resume {}",
+               folder.string(), folder.string());
+  io::make_folder(folder);
+  const auto start = WallClock::now();
+  options.say(fmt::format("packing {} grains", given.grains.count));
+  Simulation::Start ready = Simulation::prepare(given);
+  io::write_atomically(folder / "case.resolved.toml", casefile::resolved_text(ready.resolved));
+  if (!ready.convergence.empty()) {
+    io::TableWriter table(folder / "packing.csv", {"time_s", "mean_speed_m_s", "max_speed_m_s", "height_m"});
+    for (const grains::SettleRow& row : ready.convergence)
+      table.row(std::vector<double>{row.time, row.mean_speed, row.max_speed, row.height});
+    const grains::ContactMeasures m = grains::measure_contacts(ready.bed);
+    options.say(
+        fmt::format("bed at rest after {:.2f} s: level {:.4g} m, {:.2f} contacts a grain, largest overlap {:.2g} d",
+                    ready.convergence.back().time, ready.resolved.bed_thickness, m.per_grain, m.largest_overlap));
+  }
+  Simulation sim(ready.resolved, std::move(ready.bed));
+  Progress progress;
+  progress.start_wall = seconds_since(start);
+  const casefile::Case& c = sim.resolved();
+  options.say(fmt::format("flow on the fixed bed for {:.4g} s: {} x {} cells, u* = {:.4g} m/s, theta = {:.3g}",
+                          c.time.spin_up, sim.flow().mesh().nx, sim.flow().mesh().ny, c.flow.current.shear_velocity,
+                          c.theta));
+  Observers observers(folder, sim, progress);
+  return advance_to_end(sim, observers, folder, options);
+}
+
+base::Exit resume(const std::filesystem::path& folder, std::optional<double> until, const Options& options) {
+  std::vector<std::filesystem::path> files = list_checkpoints(folder);
+  if (files.empty())
+    base::fail(base::Exit::input_output, "{} holds no checkpoint to resume (looked in {})", folder.string(),
+               (folder / "checkpoints").string());
+  std::optional<Restored> restored;
+  while (!restored) {
+    try {
+      restored.emplace(load_checkpoint(files.back()));
+    } catch (const base::Fault& fault) {
+      if (fault.code() != base::Exit::input_output || files.size() == 1) throw;
+      options.say(fmt::format("{}; trying the checkpoint before", fault.what()));
+      files.pop_back();
+    }
+  }
+  if (until) restored->sim.set_end(*until);
+  options.say(fmt::format("resuming at t = {:.4g} s from {}", restored->sim.time(), files.back().string()));
+  if (!restored->note.empty()) options.say("note: " + restored->note + "; results may differ in the last bits");
+  Observers observers(folder, restored->sim, restored->progress);
+  return advance_to_end(restored->sim, observers, folder, options);
+}
+
+}  // namespace livebed::run

@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/fault.hpp"
+#include "case/case.hpp"
+
+namespace livebed::run {
+
+/// How a run is to be done; nothing of it changes its numbers.
+struct Options {
+  double wall_limit = 0;                             ///< stop with a checkpoint after this wall time [s]; 0 = none
+  std::function<void(const std::string& line)> say;  ///< one line to the user and the log
+  std::function<void(double t, double end, double S_over_D, double speed, double left)> progress;  ///< every few steps
+};
+
+/// Tells running runs to stop after the present step, with a checkpoint; safe in a signal handler.
+void request_stop(int signal);
+
+/// Runs a case from the packing to its end in a new folder.  Throws Fault: input/output when the folder holds something
+/// already or cannot be written, diverged with place, time and the last good checkpoint.  Returns ok, stopped_by_limit,
+/// or signal (the signal's number is in stop_signal()).
+base::Exit execute(const casefile::Case& given, const std::filesystem::path& folder, const Options& options);
+
+/// Continues the newest readable checkpoint of a run folder, bit for bit as if never stopped; until: a new end [s].
+base::Exit resume(const std::filesystem::path& folder, std::optional<double> until, const Options& options);
+
+/// Signal that stopped the last run; 0 when none did.
+int stop_signal();
+
+}  // namespace livebed::run

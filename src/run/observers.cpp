@@ -1,0 +1,124 @@
+#include "run/observers.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+
+#include "io/file.hpp"
+
+namespace livebed::run {
+
+namespace {
+
+/// Is the (count+1)-th output of a schedule with this interval due?  The first is due at t = 0; the tolerance is a
+/// billionth of the interval.
+bool due(double time, std::int64_t count, double every) { return time >= (static_cast<double>(count) - 1e-9) * every; }
+
+io::TableWriter open_table(const std::filesystem::path& path, const std::vector<std::string>& columns,
+                           std::uint64_t offset) {
+  return offset == 0 ? io::TableWriter(path, columns) : io::TableWriter(path, columns, offset);
+}
+
+}  // namespace
+
+std::vector<std::string> bed_columns(const std::vector<double>& x) {
+  std::vector<std::string> columns = {"time_s"};
+  for (double xi : x) columns.push_back(fmt::format("y_at_{:.6g}_m", xi));
+  return columns;
+}
+
+Observers::Observers(const std::filesystem::path& folder, const Simulation& sim, const Progress& progress)
+    : folder_(folder),
+      sampler_(sim),
+      progress_(progress),
+      series_(open_table(folder / "series.csv", series_columns(), progress.series_offset)),
+      bed_(open_table(folder / "bed.csv", bed_columns(sampler_.x()), progress.bed_offset)),
+      flow_files_(folder / "flow.pvd", progress.frames > 0 ? sim.time() : -1.0),
+      grain_files_(folder / "grains.pvd", progress.frames > 0 ? sim.time() : -1.0) {
+  if (progress.series_rows > 0) {
+    sampler_.restore(progress.original);
+    const io::Table table = io::read_table(folder / "series.csv");
+    times_ = table.column("time_s");
+    depths_ = table.column("S_over_D");
+    scour_depth_ = depths_.empty() ? 0.0 : depths_.back();
+  } else {
+    progress_.original = sampler_.original();
+  }
+  io::make_folder(folder / "fields");
+  io::make_folder(folder / "grains");
+  io::make_folder(folder / "checkpoints");
+  if (progress.frames == 0 && sim.resolved().flow.pipe.present) {
+    const flow::PipeParams& pipe = sim.resolved().flow.pipe;
+    io::write_vtp(folder / "pipe.vtp", io::circle_line(pipe.x, pipe.y, pipe.diameter));
+  }
+}
+
+void Observers::observe(Simulation& sim) {
+  const auto start = std::chrono::steady_clock::now();
+  const casefile::OutputParams& every = sim.resolved().output;
+  const double time = sim.time();
+  const bool bed_due = due(time, progress_.bed_rows, every.bed_every) && sim.resolved().grains.count > 0;
+  if (due(time, progress_.series_rows, every.series_every) || bed_due) write_series(sim, bed_due);
+  if (due(time, progress_.frames, every.fields_every)) write_frame(sim);
+  const bool save = due(time, progress_.checkpoints, every.checkpoint_every);
+  if (save) ++progress_.checkpoints;
+  sim.wall().output += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (save) checkpoint(sim);
+}
+
+void Observers::write_series(const Simulation& sim, bool bed_due) {
+  const Sample sample = sampler_.sample(sim);
+  const casefile::OutputParams& every = sim.resolved().output;
+  if (due(sim.time(), progress_.series_rows, every.series_every)) {
+    const double before = times_.empty() ? 0.0 : times_.back();
+    series_.row(sample.row);
+    ++progress_.series_rows;
+    progress_.series_offset = series_.offset();
+    times_.push_back(sample.row[0]);
+    depths_.push_back(sample.row[2]);
+    scour_depth_ = depths_.back();
+    progress_.theta_sum += (sample.row[0] - before) * sample.row[10];
+    progress_.theta_time += sample.row[0] - before;
+    progress_.largest_overlap = std::max(progress_.largest_overlap, sample.row[21]);
+  }
+  if (bed_due) write_bed(sim.time(), sample.line);
+}
+
+void Observers::write_bed(double time, const std::vector<double>& line) {
+  std::vector<double> row = {time};
+  row.insert(row.end(), line.begin(), line.end());
+  bed_.row(row);
+  ++progress_.bed_rows;
+  progress_.bed_offset = bed_.offset();
+}
+
+void Observers::write_frame(Simulation& sim) {
+  const bool grains = sim.resolved().grains.count > 0;
+  const std::string flow_file = fmt::format("fields/flow_{:06d}.vtr", progress_.frames);
+  const std::string grain_file = fmt::format("grains/grains_{:06d}.vtp", progress_.frames);
+  io::write_vtr(folder_ / flow_file, io::flow_fields(sim.flow().mesh(), sim.flow().state,
+                                                     grains ? &sim.solid_fraction() : nullptr, sim.time()));
+  flow_files_.add(sim.time(), flow_file);
+  if (grains) {
+    io::write_vtp(folder_ / grain_file, io::grain_points(sim.bed().state, sim.time()));
+    grain_files_.add(sim.time(), grain_file);
+  }
+  ++progress_.frames;
+}
+
+void Observers::checkpoint(Simulation& sim) {
+  const auto start = std::chrono::steady_clock::now();
+  series_.sync();
+  bed_.sync();
+  save_checkpoint(checkpoint_path(folder_, sim.clock().flow_steps), sim, progress_);
+  std::vector<std::filesystem::path> files = list_checkpoints(folder_);
+  for (std::size_t k = 0; k + 2 < files.size(); ++k) std::filesystem::remove(files[k]);
+  sim.wall().output += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool Observers::at_equilibrium(const casefile::Case& c) const {
+  if (c.time_scale <= 0) return false;
+  return equilibrium(times_, depths_, c.time.equilibrium_window * c.time_scale, c.time.equilibrium_change).has_value();
+}
+
+}  // namespace livebed::run
