@@ -11,7 +11,7 @@ namespace livebed::report {
 
 namespace {
 
-constexpr int left = 62, right = 14, top = 12, bottom = 44;
+constexpr int left = 74, right = 14, top = 12, bottom = 44;
 
 struct Range {
   double from = std::numeric_limits<double>::infinity(), to = -std::numeric_limits<double>::infinity();

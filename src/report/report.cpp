@@ -18,7 +18,7 @@ p{margin:.4rem 0;color:var(--dim)}.origin{font-size:.85rem}
 img{display:block;width:100%;margin:.6rem 0;border:1px solid var(--rule)}
 .row{display:flex;flex-wrap:wrap;gap:.4rem 1.4rem}.chart{max-width:100%;height:auto;font-size:12px}
 .chart text{fill:var(--ink)}.axis path{stroke:var(--rule)}.axis rect{fill:none;stroke:var(--dim)}
-.legend{font-size:.85rem;padding-left:62px}.legend span{margin-right:1rem}.legend i{display:inline-block;margin-right:.35rem;vertical-align:middle}
+.legend{font-size:.85rem;padding-left:74px}.legend span{margin-right:1rem}.legend i{display:inline-block;margin-right:.35rem;vertical-align:middle}
 .legend .line{width:22px;border-top:2px solid var(--c)}.legend .dash{width:22px;border-top:2px dashed var(--c)}.legend .dot{width:8px;height:8px;border-radius:50%;background:var(--c)}
 pre{background:var(--box);padding:.8rem;overflow:auto;font-size:.82rem}summary{cursor:pointer;padding:.3rem 0}
 )css";

@@ -93,7 +93,7 @@ std::string head_section(const RunFolder& run) {
                   run.time_scale ? fmt::format("t/T = {:.2f}", last_time / *run.time_scale) : "");
   if (const auto v = number(run, "wall_s")) cards += card("wall time", duration(*v), walls_note(run));
   if (const auto v = number(run, "grain_steps_per_second"))
-    cards += card("grain-steps a second", fmt::format("{:.3g}", *v));
+    cards += card("grain-steps a second", fmt::format("{:.3g} million", *v / 1e6));
   if (const auto v = number(run, "flow_ms_per_step")) cards += card("a flow step", fmt::format("{:.3g} ms", *v));
   if (const auto v = number(run, "grains")) cards += card("grains", fmt::format("{:.0f}", *v));
   if (const auto v = number(run, "cells")) cards += card("cells", fmt::format("{:.0f}", *v));
@@ -227,7 +227,7 @@ std::string series_section(const RunFolder& run) {
   };
   std::string charts;
   const auto add = [&](const char* title, Axis y, std::initializer_list<Line> lines) {
-    Chart chart{{"t [s]"}, std::move(y), {}, 420, 230};
+    Chart chart{{"t [s]"}, std::move(y), {}, 385, 230};
     for (const Line& line : lines)
       if (series.has(line.column))
         chart.curves.push_back({line.name, line.colour, series.column("time_s"), series.column(line.column)});

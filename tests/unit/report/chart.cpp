@@ -23,11 +23,11 @@ TEST(chart, ticks_are_round_and_inside) {
 }
 
 TEST(chart, points_land_where_the_axes_say) {
-  Chart chart{{"x", 0, 10}, {"y", 0, 1}, {{"", "red", {0, 5, 10}, {0, 0.5, 1}, true}}, 176, 156};
+  Chart chart{{"x", 0, 10}, {"y", 0, 1}, {{"", "red", {0, 5, 10}, {0, 0.5, 1}, true}}, 188, 156};
   const std::string text = svg(chart);  // 100 x 100 inside the margins
-  EXPECT_NE(text.find(R"(cx="62.0" cy="112.0")"), std::string::npos) << text;
-  EXPECT_NE(text.find(R"(cx="112.0" cy="62.0")"), std::string::npos);
-  EXPECT_NE(text.find(R"(cx="162.0" cy="12.0")"), std::string::npos);
+  EXPECT_NE(text.find(R"(cx="74.0" cy="112.0")"), std::string::npos) << text;
+  EXPECT_NE(text.find(R"(cx="124.0" cy="62.0")"), std::string::npos);
+  EXPECT_NE(text.find(R"(cx="174.0" cy="12.0")"), std::string::npos);
 }
 
 TEST(chart, long_curves_are_thinned_without_losing_a_peak) {
