@@ -112,7 +112,7 @@ SolveReport PressureSolver::solve(base::Field& p, const base::Field& b, double t
   for_each_value([](double& r, double q) { r -= q; }, r_, q_);
   report.before = report.after = std::sqrt(dot(r_, r_));
   double rz_old = 1;
-  while (report.after > target) {
+  while (!(report.after <= target)) {  // also true for NaN
     if (report.iterations == most || !std::isfinite(report.after))
       base::fail(base::Exit::diverged,
                  "pressure: residual {:.3g} after {} iterations, {:.3g} was asked for (flow.pressure_tolerance, "

@@ -49,7 +49,9 @@ Staggering make(const Mesh& m, int shift_x, int shift_y) {
     for (int i = 0; i < m.nx; ++i) {
       const double open_x = std::max(s.area_x(i, j), s.area_x(i + 1, j)) / s.height[j + 2];
       const double open_y = std::max(s.area_y(i, j), s.area_y(i, j + 1)) / s.width[i + 2];
-      s.inertia(i, j) = std::max(s.volume(i, j), 0.5 * std::max(open_x, open_y) * s.width[i + 2] * s.height[j + 2]);
+      const double whole = s.width[i + 2] * s.height[j + 2];
+      s.inertia(i, j) = std::max(s.volume(i, j), 0.5 * std::max(open_x, open_y) * whole);
+      if (s.inertia(i, j) <= 0) s.inertia(i, j) = whole;  // solid: nothing moves, nothing divides by zero
     }
   return s;
 }
