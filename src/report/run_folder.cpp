@@ -71,7 +71,7 @@ BedLine BedHistory::nearest(double t) const {
 }
 
 double RunFolder::original_level() const {
-  if (summary.contains("original_bed_m") && summary["original_bed_m"].is_number()) return summary["original_bed_m"];
+  if (summary.contains("bed_level_m") && summary["bed_level_m"].is_number()) return summary["bed_level_m"];
   if (!bed || bed->time.empty()) return std::nan("");
   double sum = 0;
   int count = 0;
@@ -116,7 +116,7 @@ RunFolder read_run(const io::Path& folder) {
     run.series.reset();
     run.missing.emplace_back("series.csv has no rows yet.");
   }
-  if (present("fields.pvd", "no pictures of the flow")) run.fields = io::read_pvd(folder / "fields.pvd");
+  if (present("flow.pvd", "no pictures of the flow")) run.fields = io::read_pvd(folder / "flow.pvd");
   if (present("grains.pvd", "no grains in the pictures")) run.grains = io::read_pvd(folder / "grains.pvd");
   if (fs::exists(folder / "pipe.vtp")) run.pipe = read_pipe(folder / "pipe.vtp");
   if (present("log.txt", "no log")) run.log_end = last_lines(io::read_file(folder / "log.txt"), log_lines);

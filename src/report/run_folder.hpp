@@ -35,7 +35,7 @@ struct RunFolder {
   nlohmann::ordered_json summary;    ///< null while the run is not finished
   std::optional<io::Table> series;
   std::optional<BedHistory> bed;
-  std::vector<io::TimedFile> fields, grains;  ///< of fields.pvd and grains.pvd
+  std::vector<io::TimedFile> fields, grains;  ///< of flow.pvd and grains.pvd
   std::string log_end;                        ///< last lines of log.txt
   std::vector<std::string> missing;           ///< sentences for the reader
 

@@ -35,7 +35,7 @@ Overlay mao_profile(double at, const Pipe& pipe, double level) {
 
 Stage nearest_stage(const RunFolder& run, double time) {
   if (run.fields.empty())
-    base::fail(base::Exit::input_output, "{} has no snapshots (fields.pvd is missing or empty)", run.path.string());
+    base::fail(base::Exit::input_output, "{} has no snapshots (flow.pvd is missing or empty)", run.path.string());
   const auto nearest = [time](const std::vector<io::TimedFile>& files) {
     return *std::min_element(files.begin(), files.end(), [time](const io::TimedFile& a, const io::TimedFile& b) {
       return std::abs(a.time - time) < std::abs(b.time - time);

@@ -192,6 +192,7 @@ Hole measure_hole(std::span<const double> x, std::span<const double> line, doubl
       hole.mound_x = x[i];
     }
   }
+  if (pipe.diameter <= 0) return {.eroded = hole.eroded, .deposited = hole.deposited};
   if (hole.mound_height == 0) hole.mound_x = pipe.x;
   if (deepest == n)
     fail(Exit::internal, "no point of the bed line within D = {} m of the pipe at {} m", pipe.diameter, pipe.x);

@@ -82,7 +82,8 @@ struct Hole {
   double deposited = 0;         ///< area of the bed above it
 };
 
-/// x ascending and evenly spaced, line(x) the bed, original the level of t = 0 [m].
+/// x ascending and evenly spaced, line(x) the bed, original the level of t = 0 [m].  Without a pipe (diameter 0) only
+/// the areas are measured.
 Hole measure_hole(std::span<const double> x, std::span<const double> line, double original, const PipeCircle& pipe);
 
 /// S(t) = S_eq (1 - exp(-t/T)) by least squares, with standard errors from the linearised problem (residuals taken as

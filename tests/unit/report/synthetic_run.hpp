@@ -39,7 +39,7 @@ struct SyntheticRun {
     io::write_atomically(folder / "log.txt", "started\ngrains released\n");
     if (with_pipe) io::write_vtp(folder / "pipe.vtp", io::circle_line(pipe_x, pipe_y(), D));
     write_tables(folder);
-    io::TimeSeries fields(folder / "fields.pvd"), grains(folder / "grains.pvd");
+    io::TimeSeries fields(folder / "flow.pvd"), grains(folder / "grains.pvd");
     for (int n = 0; n < snapshots; ++n) {
       const double t = snapshots > 1 ? last_time * n / (snapshots - 1) : 0;
       const std::string number = std::to_string(n);

@@ -132,6 +132,15 @@ TEST(scour, a_straight_sided_hole_has_its_interpolated_width_and_a_risen_bed_no_
   EXPECT_EQ(none.eroded, 0);
 }
 
+TEST(scour, without_a_pipe_only_the_areas_are_measured) {
+  const std::vector<double> x{0.5, 1.5, 2.5, 3.5}, line{0.9, 1.2, 1.0, 1.0};
+  const Hole hole = measure_hole(x, line, 1, {});
+  EXPECT_NEAR(hole.eroded, 0.1, 1e-14);
+  EXPECT_NEAR(hole.deposited, 0.2, 1e-14);
+  EXPECT_EQ(hole.depth, 0);
+  EXPECT_EQ(hole.width, 0);
+}
+
 TEST(scour, the_deepest_point_is_looked_for_within_one_diameter_only) {
   std::vector<double> x, line;
   for (int i = 0; i < 500; ++i) {
