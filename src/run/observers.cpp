@@ -33,7 +33,7 @@ Observers::Observers(const std::filesystem::path& folder, const Simulation& sim,
       progress_(progress),
       series_(open_table(folder / "series.csv", series_columns(), progress.series_offset)),
       bed_(open_table(folder / "bed.csv", bed_columns(sampler_.x()), progress.bed_offset)),
-      flow_files_(folder / "fields.pvd", progress.frames > 0 ? sim.time() : -1.0),
+      flow_files_(folder / "flow.pvd", progress.frames > 0 ? sim.time() : -1.0),
       grain_files_(folder / "grains.pvd", progress.frames > 0 ? sim.time() : -1.0) {
   if (progress.series_rows > 0) {
     sampler_.restore(progress.original);
