@@ -60,6 +60,16 @@ std::string walls_note(const RunFolder& run) {
   return note;
 }
 
+/// The fit S_eq (1 - exp(-t/T)) in words.
+std::string fit_note(const RunFolder& run) {
+  if (!run.summary.contains("fit") || !run.summary["fit"].is_object()) return "";
+  const auto& fit = run.summary["fit"];
+  for (const char* key : {"S_eq_over_D", "error_S_eq", "T_s", "error_T_s"})
+    if (!fit.contains(key) || !fit[key].is_number()) return "";
+  return fmt::format("fit {:.3f} ± {:.3f}, T = {:.3g} ± {:.1g} s", fit["S_eq_over_D"].get<double>(),
+                     fit["error_S_eq"].get<double>(), fit["T_s"].get<double>(), fit["error_T_s"].get<double>());
+}
+
 }  // namespace
 
 std::string head_section(const RunFolder& run) {
@@ -81,7 +91,7 @@ std::string head_section(const RunFolder& run) {
   if (under && run.pipe) cards += card("depth under the pipe / D", fmt::format("{:.3f}", *under));
   if (!run.summary.is_null() && run.pipe) {
     const auto S_eq = number(run, "S_eq_over_D"), T = number(run, "T_s");
-    cards += card("equilibrium S/D", S_eq ? fmt::format("{:.3f}", *S_eq) : "not reached");
+    cards += card("equilibrium S/D", S_eq ? fmt::format("{:.3f}", *S_eq) : "not reached", fit_note(run));
     cards += card("time scale of S(t)", T ? fmt::format("{:.3g} s", *T) : "not reached",
                   run.time_scale ? fmt::format("formula {:.3g} s", *run.time_scale) : "");
   }
@@ -207,6 +217,7 @@ std::string profile_section(const RunFolder& run) {
     const BedLine line = run.bed->nearest(t);
     Chart chart{{"x/D", -4, 6.5}, {"y/D", -1.4, 1.2}, {circle, in_D(line, "this run", blue, false), dots}};
     chart.equal_scales = true;
+    chart.width = 590;
     charts +=
         fmt::format("<div><h3>t/T = {:.2f}, t = {:.3g} s</h3>{}</div>", t_mao / mao_time_scale, line.time, svg(chart));
   }
@@ -215,6 +226,7 @@ std::string profile_section(const RunFolder& run) {
              {circle, in_D(run.bed->nearest(0), "at the start", grey, true),
               in_D(run.bed->nearest(last), "now", blue, false)}};
   ends.equal_scales = true;
+  ends.width = 1180;
   charts += fmt::format("<div><h3>Whole length, t = {:.3g} s</h3>{}</div>", last, svg(ends));
   return "<section><h2>Bed line</h2><div class=\"row\">" + charts + "</div></section>";
 }

@@ -149,7 +149,7 @@ void draw_frame(Picture& picture, const View& view, const Snapshot& s, const Sna
   picture.rectangle(0, y1, picture.width(), picture.height(), white);
   picture.rectangle(0, 0, left, picture.height(), white);
   picture.rectangle(x1, 0, picture.width(), picture.height(), white);
-  picture.text(left, 10, options.title, letter, ink);
+  picture.text(left + 24, 10, options.title, letter, ink);
 
   // With a pipe lengths are in D from its centre and the original bed; without one in metres.
   const double unit = s.pipe ? s.pipe->diameter : 1, origin_x = s.pipe ? s.pipe->x : 0;

@@ -52,6 +52,7 @@ struct SyntheticRun {
       io::write_atomically(
           folder / "summary.json",
           R"({"scour_depth_over_D": 0.5994, "depth_under_pipe_over_D": 0.589, "S_eq_over_D": 0.6, "T_s": 0.88,
+                               "fit": {"S_eq_over_D": 0.6, "T_s": 0.88, "error_S_eq": 0.011, "error_T_s": 0.02, "rms": 0.01},
                                "theta_measured": 0.31, "wall_s": 421.5, "grain_steps_per_second": 5.1e7, "flow_ms_per_step": 11.25,
                                "walls": {"flow_s": 190, "grains_s": 200, "exchange_s": 25, "output_s": 6.5}, "cells": 16000,
                                "grains": 6240, "peak_memory_MB": 212, "case_hash": "0123456789abcdef", "seed": 1,
