@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/curves.hpp"
 #include "base/math.hpp"
 #include "report/chart.hpp"
 #include "report/references.hpp"
@@ -58,6 +59,14 @@ std::string walls_note(const RunFolder& run) {
     if (seconds.is_number())
       note += fmt::format("{}{} {}", note.empty() ? "" : ", ", name.substr(0, name.rfind("_s")), duration(seconds));
   return note;
+}
+
+/// How near a curve is to measured points, in words; empty when none of them lies inside it.
+std::string nearness(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& x_measured,
+                     const std::vector<double>& y_measured) {
+  const auto c = base::compare(x, y, x_measured, y_measured, 0);
+  if (!c) return "";
+  return fmt::format("{} points: rms {:.3f}, mean {:+.3f}, Brier skill {:.2f}", c->points, c->rms, c->bias, c->skill);
 }
 
 /// The fit S_eq (1 - exp(-t/T)) in words.
@@ -167,17 +176,17 @@ std::string depth_section(const RunFolder& run) {
     in_scale.curves = {
         {"this run", blue, divided(t, *run.time_scale), S},
         {fmt::format("Mao (1986), T = {} s", mao_time_scale), mao, divided(t_mao, mao_time_scale), S_mao, true}};
-    out += "<div>" + svg(in_scale) + "</div>";
+    const std::string near = nearness(in_scale.curves[0].x, S, in_scale.curves[1].x, S_mao);
+    out += "<div>" + svg(in_scale) + (near.empty() ? "" : "<p>This run against Mao's " + near + ".</p>") + "</div>";
   }
   out +=
       "</div><p>Mao: D = 0.05 m, theta = 0.33, e/D = 0, digitised second-hand (about 0.02 in S/D; his profiles are up "
-      "to 0.1 D "
-      "deeper at equal times).";
+      "to 0.1 D deeper at equal times).";
+  out += " Brier skill: 1 is perfect, 0 no better than a bed that never moves.";
   if (run.time_scale)
     out += fmt::format(
         " T = D²/√(g(s−1)d³) θ^(−5/3)/50: {:.3g} s here. Coarser grains dig faster, so only the right chart compares "
-        "runs "
-        "with another grain.",
+        "runs with another grain.",
         *run.time_scale);
   return out + "</p></section>";
 }
@@ -215,11 +224,12 @@ std::string profile_section(const RunFolder& run) {
         dots.y.push_back(table.column("y_bed_D")[n]);
       }
     const BedLine line = run.bed->nearest(t);
-    Chart chart{{"x/D", -4, 6.5}, {"y/D", -1.4, 1.2}, {circle, in_D(line, "this run", blue, false), dots}};
+    const Curve computed = in_D(line, "this run", blue, false);
+    Chart chart{{"x/D", -4, 6.5}, {"y/D", -1.4, 1.2}, {circle, computed, dots}};
     chart.equal_scales = true;
     chart.width = 590;
-    charts +=
-        fmt::format("<div><h3>t/T = {:.2f}, t = {:.3g} s</h3>{}</div>", t_mao / mao_time_scale, line.time, svg(chart));
+    charts += fmt::format("<div><h3>t/T = {:.2f}, t = {:.3g} s</h3>{}<p>{}</p></div>", t_mao / mao_time_scale,
+                          line.time, svg(chart), nearness(computed.x, computed.y, dots.x, dots.y));
   }
   Chart ends{{"x/D"},
              {"y/D"},

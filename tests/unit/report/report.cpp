@@ -34,7 +34,9 @@ TEST(report, a_finished_run_becomes_one_file_that_needs_nothing_else) {
   EXPECT_EQ(count(page, "<b>0.599</b><span>S/D</span>"), 1u);
   EXPECT_EQ(count(page, "<h1>A hole made of &lt;formulas&gt;</h1>"), 1u);
   EXPECT_EQ(count(page, "fit 0.600 ± 0.011, T = 0.88 ± 0.02 s"), 1u);
-  EXPECT_GE(count(page, "<circle"), 42u * 2);  // Mao's points in both charts
+  EXPECT_EQ(count(page, "This run against Mao's 42 points: rms 0."), 1u);
+  EXPECT_EQ(count(page, "Brier skill 0."), 3u);  // of S/D(t/T) and of two profiles
+  EXPECT_GE(count(page, "<circle"), 42u * 2);    // Mao's points in both charts
   EXPECT_EQ(count(page, "7 min 2 s") + count(page, "7 min 1 s"), 1u);
   EXPECT_LT(page.size(), 6'000'000u);
 }

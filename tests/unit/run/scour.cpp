@@ -273,19 +273,5 @@ TEST(scour, equilibrium_needs_a_full_window_of_steady_depth) {
   EXPECT_FALSE(equilibrium(std::vector<double>{0, 1}, std::vector<double>{0.5, 0.5}, 5, 0.02));
 }
 
-TEST(scour, comparison_counts_only_the_points_inside_and_scores_the_baseline_zero) {
-  const std::vector<double> x{0, 1, 2}, y{0, 2, 2}, at{-1, 0.5, 1.5, 3}, reference{9, 0.5, 3, 9};
-  const auto result = compare(x, y, at, reference, 0);
-  ASSERT_TRUE(result);
-  EXPECT_EQ(result->points, 2);
-  EXPECT_NEAR(result->bias, (0.5 - 1) / 2, 1e-14);
-  EXPECT_NEAR(result->rms, std::sqrt((0.25 + 1) / 2), 1e-14);
-  EXPECT_NEAR(result->largest, 1, 1e-14);
-  EXPECT_NEAR(result->skill, 1 - 1.25 / 9.25, 1e-14);
-  EXPECT_NEAR(compare(x, std::vector<double>{0, 0, 0}, at, reference, 0)->skill, 0, 1e-14);
-  EXPECT_FALSE(compare(x, y, std::vector<double>{5}, std::vector<double>{1}, 0));
-  EXPECT_TRUE(std::isnan(compare(x, y, at, std::vector<double>{0, 0, 0, 0}, 0)->skill));
-}
-
 }  // namespace
 }  // namespace livebed::run
