@@ -107,32 +107,42 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
   convect(m, at, params.convection, w.face, c.value, c.rate, w.gamma, dt, w.rows, w.change);
   conduct(m, c, w.gamma, g);
   const Field& crossing = c.is_u ? w.face.v : w.face.u;  // the other component, centred in time
+  const double* hx_u = at.hx.data() + 2;
+  const double* hx_p = m.dx_face_.data() + 2;
 
   for_each_item(at.j0, at.j1, [&](int j) {
     const double *V = at.volume.row(j), *M = at.inertia.row(j), *beta = c.beta.row(j), *force = c.force.row(j);
-    const double *fr = c.friction.row(j), *u = c.value.row(j), *p = s.p.row(j),
-                 *p_back = c.is_u ? p - 1 : s.p.row(j - 1);
+    const double *fr = c.friction.row(j), *u = c.value.row(j), *below = c.value.row(j - 1), *above = c.value.row(j + 1);
+    const double *gx = g.x.row(j), *gy = g.y.row(j), *gy_above = g.y.row(j + 1), *p = s.p.row(j), *p_below = s.p.row(j - 1);
     double *rhs = w.change.row(j), *rate = c.rate.row(j), *factor = c.factor.row(j), *response = c.response.row(j);
-    const double* hx_p = m.dx_face_.data() + 2;
-    const double hy_p = m.dy_face(j);
-    const bool is_u = c.is_u;
-    const double lid = is_u && j == m.ny - 1 ? b.top_speed : 0.0;
+    double* outer = w.scratch.row(j);  // forces from the other component and from the pressure
+    if (c.is_u) {
+      // d/dy (Gamma dv/dx) over the volume, and the pressure on its sides.
+      const double *v = crossing.row(j), *v_above = crossing.row(j + 1), h = at.hy[j + 2], h_above = at.hy[j + 3];
+      vector_loop(at.i0, at.i1, [&](int i) {
+        const double stress = gy_above[i] * h_above * (v_above[i] - v_above[i - 1]) - gy[i] * h * (v[i] - v[i - 1]);
+        outer[i] = (stress - V[i] / rho * (p[i] - p[i - 1])) / hx_p[i];
+      });
+    } else {
+      const double *v = crossing.row(j), *v_below = crossing.row(j - 1), scale = 1.0 / m.dy_face(j);
+      vector_loop(at.i0, at.i1, [&](int i) {
+        const double stress = gx[i + 1] * hx_u[i + 1] * (v[i + 1] - v_below[i + 1]) - gx[i] * hx_u[i] * (v[i] - v_below[i]);
+        outer[i] = (stress - V[i] / rho * (p[i] - p_below[i])) * scale;
+      });
+    }
+    const double lid = c.is_u && j == m.ny - 1 ? b.top_speed : 0.0;
     vector_loop(at.i0, at.i1, [&](int i) {
-      const double cross =
-          is_u ? g.y(i, j + 1) * at.hy[j + 3] * (crossing(i, j + 1) - crossing(i - 1, j + 1)) / m.dx_face(i) -
-                     g.y(i, j) * at.hy[j + 2] * (crossing(i, j) - crossing(i - 1, j)) / m.dx_face(i)
-               : g.x(i + 1, j) * at.hx[i + 3] * (crossing(i + 1, j) - crossing(i + 1, j - 1)) / m.dy_face(j) -
-                     g.x(i, j) * at.hx[i + 2] * (crossing(i, j) - crossing(i, j - 1)) / m.dy_face(j);
-      const double gradient = (p[i] - p_back[i]) / (is_u ? hx_p[i] : hy_p);
+      const double diffusion = gx[i + 1] * (u[i + 1] - u[i]) - gx[i] * (u[i] - u[i - 1]) + gy_above[i] * (above[i] - u[i]) -
+                               gy[i] * (u[i] - below[i]);
       const double friction = fr[i] * (u[i] - lid);
-      const double forces =
-          diffuse(g, c.value, i, j) + cross - friction + V[i] / rho * (force[i] - beta[i] * u[i] - gradient);
-      const double convection = rhs[i] / M[i];
-      const double drag = dt * beta[i] * V[i] / (rho * M[i]);
-      rhs[i] = dt * (convection + forces / M[i]);
+      const double forces = diffusion + outer[i] - friction + V[i] / rho * (force[i] - beta[i] * u[i]);
+      const double per_inertia = 1.0 / M[i];
+      const double convection = rhs[i] * per_inertia;
+      const double drag = dt / rho * beta[i] * V[i] * per_inertia;
+      rhs[i] = dt * (convection + forces * per_inertia);
       rate[i] = -convection;
-      factor[i] = 1.0 + drag + dt * fr[i] / M[i];
-      response[i] = V[i] / M[i] / (1.0 + drag);
+      factor[i] = 1.0 + drag + dt * fr[i] * per_inertia;
+      response[i] = V[i] * per_inertia / (1.0 + drag);
     });
   });
 

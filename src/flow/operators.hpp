@@ -42,10 +42,4 @@ void solve_lines_x(const Staggering& at, const base::Field& base, const base::Fi
 void solve_lines_y(const Staggering& at, const base::Field& base, const base::Field& conductance, double dt,
                    base::Field& phi, base::Field& scratch);
 
-/// Sum of the fluxes c (phi_neighbour - phi) through the faces of volume (i,j).
-inline double diffuse(const Conductance& c, const base::Field& phi, int i, int j) {
-  return c.x(i + 1, j) * (phi(i + 1, j) - phi(i, j)) - c.x(i, j) * (phi(i, j) - phi(i - 1, j)) +
-         c.y(i, j + 1) * (phi(i, j + 1) - phi(i, j)) - c.y(i, j) * (phi(i, j) - phi(i, j - 1));
-}
-
 }  // namespace livebed::flow
