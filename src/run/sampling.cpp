@@ -104,7 +104,7 @@ Sample Sampler::sample(const Simulation& sim) {
   if (grains) {
     solid_.sample(g.x, g.y, g.diameter);
     result.line = bed_line(solid_, original_.packed);
-    result.hole = measure_hole(x_, result.line, original_.level, solid_.pipe());
+    if (c.flow.pipe.present) result.hole = measure_hole(x_, result.line, original_.level, solid_.pipe());
   }
   const Hole& hole = result.hole;
   const bool pipe = c.flow.pipe.present;
