@@ -39,7 +39,7 @@ std::string png(int width, int height, std::span<const std::uint8_t> rgb) {
   uLongf size = compressBound(raw.size());
   std::string packed(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()), raw.size(),
-                9) != Z_OK)
+                6) != Z_OK)
     base::fail(base::Exit::internal, "zlib could not compress a picture of {} bytes", raw.size());
   packed.resize(size);
 
