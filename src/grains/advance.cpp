@@ -68,8 +68,11 @@ void advance(Bed& bed, int steps) {
   for (int step = 0; step < steps; ++step) {
     const bool held = sweep(constants, bed.state, bed.contacts, bed.records);
     ++bed.steps;
-    if (!held) renew(bed);
+    if (held) continue;
+    read_records(bed.records, bed.state);
+    renew(bed);
   }
+  read_records(bed.records, bed.state);
   bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
 }
 

@@ -47,9 +47,10 @@ void each_array(BedLike& bed, Visit&& visit) {
   visit("fluid_u", s.fluid.u), visit("fluid_v", s.fluid.v), visit("fluid_beta", s.fluid.beta);
   visit("fluid_fx", s.fluid.fx), visit("fluid_fy", s.fluid.fy);
   visit("impulse_x", s.impulse_x), visit("impulse_y", s.impulse_y);
-  visit("list_first", c.first), visit("list_neighbour", c.neighbour), visit("list_spring", c.spring);
+  visit("list_first", c.first), visit("list_first_apart", c.first_apart), visit("list_neighbour", c.neighbour),
+      visit("list_spring", c.spring);
   visit("floor_spring", c.wall_spring[slot_floor]), visit("floor_odd_spring", c.wall_spring[slot_floor_odd]);
-  visit("pipe_spring", c.wall_spring[slot_pipe]), visit("list_walls", c.walls);
+  visit("pipe_spring", c.wall_spring[slot_pipe]), visit("list_near", c.near);
   visit("x_built", c.x_built), visit("y_built", c.y_built);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/loops.hpp"
 
@@ -20,8 +21,9 @@ struct Slice {
 
 /// Adds the force of one contact in each lane that touches.  (n_x, n_y): from the grain to the other; (u, v): velocity
 /// of the other relative to the grain; spin: w_i + w_j.
-inline void push(const Contact& law, Slice& g, const Mask& touching, const Lanes& overlap, const Lanes& n_x,
-                 const Lanes& n_y, const Lanes& u, const Lanes& v, const Lanes& spin, double* spring) {
+[[gnu::always_inline]] inline void push(const Contact& law, Slice& g, const Mask& touching, const Lanes& overlap,
+                                        const Lanes& n_x, const Lanes& n_y, const Lanes& u, const Lanes& v,
+                                        const Lanes& spin, double* spring) {
   Lanes before;
   std::memcpy(&before, spring, sizeof before);
   const Lanes closing = -(u * n_x + v * n_y);
@@ -100,34 +102,66 @@ void push_pipe(const Sweep& k, Slice& g, Contacts& c, int begin, int filled, dou
   impulse_y -= k.dt * sum(alone.force_y);
 }
 
-inline void push_pairs(const Sweep& k, Slice& g, Contacts& c, const Records& records, int slice) {
+/// A row of pairs: where the others are, and which of them touch.
+struct Row {
+  Lanes dx, dy, d2, contact_distance, w;
+  Mask touching;
+};
+
+template <bool across_seam>
+[[gnu::always_inline]] inline Row look(const Reach& reach, const Slice& g, const double* place,
+                                       const std::int32_t* at) {
+  Lanes other[4];  // x, y, r, w
+  load_fours(place, at, other);
+  Row row{.dx = other[0] - g.x, .dy = other[1] - g.y, .d2 = {}, .contact_distance = {}, .w = other[3], .touching = {}};
+  if constexpr (across_seam) row.dx = nearest_image<Lanes>(row.dx, reach.length);
+  row.d2 = row.dx * row.dx + row.dy * row.dy;
+  row.contact_distance = reach.gamma * (g.r + other[2]);
+  row.touching = row.d2 < row.contact_distance * row.contact_distance;
+  return row;
+}
+
+template <bool across_seam>
+[[gnu::always_inline]] inline void push_pairs(const Sweep& k, Slice& slice_grains, Contacts& c, const Records& records,
+                                              int slice) {
   const double* const place = &records.place[0].x;
   const double* const motion = &records.motion[0].u;
-  for (int row = c.first[slice]; row < c.first[slice + 1]; ++row) {
-    const std::int32_t* const at = &c.neighbour[static_cast<std::size_t>(row) * lanes];
-    double* const spring = &c.spring[static_cast<std::size_t>(row) * lanes];
-    Lanes other[4];  // x, y, r, w
-    load_fours(place, at, other);
-    const Lanes dx = nearest_image<Lanes>(other[0] - g.x, k.reach.length);
-    const Lanes dy = other[1] - g.y;
-    const Lanes d2 = dx * dx + dy * dy;
-    const Lanes contact_distance = k.reach.gamma * (g.r + other[2]);
-    const Mask touching = d2 < contact_distance * contact_distance;
-    if (!any(touching)) {
-      std::fill(spring, spring + lanes, 0.0);
-      continue;
+  const std::int32_t* const neighbour = c.neighbour.data();
+  double* const springs = c.spring.data();
+  const Contact law = k.pair;  // copies stay in registers
+  const Reach reach = k.reach;
+  Slice g = slice_grains;
+  const auto push_rows = [&](int begin, int end) {
+    for (int row = begin; row < end; ++row) {
+      const std::int32_t* const at = neighbour + static_cast<std::ptrdiff_t>(row) * lanes;
+      const Row pair = look<across_seam>(reach, g, place, at);
+      Lanes speed[2];
+      load_twos(motion, at, speed);
+      const Lanes distance = root(pair.d2);
+      const Lanes inverse = 1.0 / distance;
+      push(law, g, pair.touching, pair.contact_distance - distance, pair.dx * inverse, pair.dy * inverse,
+           speed[0] - g.u, speed[1] - g.v, g.w + pair.w, springs + static_cast<std::ptrdiff_t>(row) * lanes);
     }
-    Lanes speed[2];
-    load_twos(motion, at, speed);
-    const Lanes distance = root(d2);
-    const Lanes inverse = 1.0 / distance;
-    push(k.pair, g, touching, contact_distance - distance, dx * inverse, dy * inverse, speed[0] - g.u, speed[1] - g.v,
-         g.w + other[3], spring);
+  };
+  const int apart = c.first_apart[slice], end = c.first[slice + 1];
+  push_rows(c.first[slice], apart);
+
+  // Pairs that were apart when the lists were built have no spring yet.  The first of them to touch moves them all to
+  // the front part until the next lists.
+  Mask met{};
+  for (int row = apart; row < end; ++row) {
+    met |= look<across_seam>(reach, g, place, neighbour + static_cast<std::ptrdiff_t>(row) * lanes).touching;
   }
+  if (bits(met) != 0) {
+    push_rows(apart, end);
+    c.first_apart[slice] = end;
+  }
+  slice_grains = g;
 }
 
 /// Moves the slice and writes its records.  Returns true when a grain has left its half skin.
-inline bool move(const Sweep& k, const Slice& g, State& s, const Contacts& c, Records& records, int begin, int filled) {
+[[gnu::always_inline]] inline bool move(const Sweep& k, const Slice& g, State& s, const Contacts& c, Records& records,
+                                        int begin, int filled) {
   const auto get = [&](const Array& a) { return load(a.data() + begin, filled); };
   const auto put = [&](Array& a, const Lanes& value) { store(a.data() + begin, value, filled); };
   const Lanes kick = get(records.kick), beta = get(s.fluid.beta);
@@ -135,8 +169,6 @@ inline bool move(const Sweep& k, const Slice& g, State& s, const Contacts& c, Re
   const Lanes damped = 1.0 / (1.0 + kick * beta);
   const Lanes u = (g.u + kick * (g.force_x + f_x + beta * U)) * damped;
   const Lanes v = (g.v - k.dt * k.gravity + kick * (g.force_y + f_y + beta * V)) * damped;
-  put(s.u, u);
-  put(s.v, v);
   put(s.impulse_x, get(s.impulse_x) + k.dt * (f_x + beta * (U - u)));
   put(s.impulse_y, get(s.impulse_y) + k.dt * (f_y + beta * (V - v)));
   const Lanes omega = get(s.omega) + get(records.spin_kick) * g.twist;
@@ -146,25 +178,32 @@ inline bool move(const Sweep& k, const Slice& g, State& s, const Contacts& c, Re
   const Lanes x_free = g.x + k.dt * u;
   const Lanes x = select(x_free >= length, x_free - length, select(x_free < zero, x_free + length, x_free));
   const Lanes y = g.y + k.dt * v;
-  put(s.x, x);
-  put(s.y, y);
   store_fours(&records.place_next[static_cast<std::size_t>(begin)].x, x, y, g.r, omega * g.r);
   store_twos(&records.motion_next[static_cast<std::size_t>(begin)].u, u, v);
 
   const Lanes dx = nearest_image<Lanes>(x - get(c.x_built), k.reach.length), dy = y - get(c.y_built);
   const Lanes limit = zero + base::square(0.5 * k.reach.skin);
-  return any(~(dx * dx + dy * dy <= limit));  // a NaN counts as moved
+  const unsigned moved = bits(~(dx * dx + dy * dy <= limit));  // a NaN counts as moved
+  return (moved & ((1u << filled) - 1)) != 0;
 }
 
 [[gnu::always_inline]] inline bool step_slice(const Sweep& k, State& s, Contacts& c, Records& records, int slice,
                                               int filled) {
   const int begin = slice * lanes;
-  const auto get = [&](const Array& a) { return load(a.data() + begin, filled); };
-  Slice g{.x = get(s.x), .y = get(s.y), .u = get(s.u), .v = get(s.v), .r = 0.5 * get(s.diameter), .w = {}};
-  g.w = get(s.omega) * g.r;
-  push_pairs(k, g, c, records, slice);
-  if (c.walls[slice] & wall_floor) push_floor(k, g, c, begin, filled);
-  if (c.walls[slice] & wall_pipe) {
+  std::int32_t own[lanes];
+  std::iota(own, own + lanes, begin);
+  Lanes place[4], motion[2];
+  load_fours(&records.place[0].x, own, place);
+  load_twos(&records.motion[0].u, own, motion);
+  Slice g{.x = place[0], .y = place[1], .u = motion[0], .v = motion[1], .r = place[2], .w = place[3]};
+  const unsigned near = c.near[slice];
+  if (near & near_seam) {
+    push_pairs<true>(k, g, c, records, slice);
+  } else {
+    push_pairs<false>(k, g, c, records, slice);
+  }
+  if (near & near_floor) push_floor(k, g, c, begin, filled);
+  if (near & near_pipe) {
     push_pipe(k, g, c, begin, filled, records.pipe_impulse_x[slice], records.pipe_impulse_y[slice]);
   }
   return move(k, g, s, c, records, begin, filled);
@@ -198,8 +237,10 @@ void fill_records(const Params& p, const State& s, const Contacts& c, Records& r
     r.kick[i] = p.step / m;
     r.spin_kick[i] = p.step / (inertia_factor(p.inertia) * m * radius);
   }
-  r.place_next = r.place;
-  r.motion_next = r.motion;
+  r.place_next.resize(last + 1);
+  r.motion_next.resize(last + 1);
+  r.place_next[last] = r.place[last];
+  r.motion_next[last] = r.motion[last];
   r.moved.assign((c.slices() + slices_per_block - 1) / slices_per_block, 0);
   r.pipe_impulse_x.assign(c.slices(), 0);
   r.pipe_impulse_y.assign(c.slices(), 0);
@@ -218,6 +259,15 @@ bool sweep(const Sweep& k, State& s, Contacts& c, Records& r) {
   r.place.swap(r.place_next);
   r.motion.swap(r.motion_next);
   return std::none_of(r.moved.begin(), r.moved.end(), [](std::uint8_t moved) { return moved != 0; });
+}
+
+void read_records(const Records& r, State& s) {
+  for (int i = 0; i < s.count(); ++i) {
+    s.x[i] = r.place[i].x;
+    s.y[i] = r.place[i].y;
+    s.u[i] = r.motion[i].u;
+    s.v[i] = r.motion[i].v;
+  }
 }
 
 base::Vec2 collect_pipe_impulse(Records& r) {

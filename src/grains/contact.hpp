@@ -18,8 +18,8 @@ struct Motion {
   double u, v;  ///< [m/s]
 };
 
-/// Copies of the grains in the form the force loop reads.  Two sets: a step reads one and writes the other, so that no
-/// slice sees a neighbour that has already moved.
+/// The grains in the form the force loop reads.  Two sets: a step reads one and writes the other, so that no slice sees
+/// a neighbour that has already moved.  Between fill_records and read_records places and velocities live here alone.
 struct Records {
   base::AlignedVector<Place> place, place_next;
   base::AlignedVector<Motion> motion, motion_next;
@@ -45,6 +45,9 @@ Sweep make_sweep(const Params& p, const Circle& pipe);
 
 /// Fills the records from the state and clears the pipe's impulse.
 void fill_records(const Params& p, const State& s, const Contacts& c, Records& r);
+
+/// Places and velocities back into the state.
+void read_records(const Records& r, State& s);
 
 /// One step of every grain, forces and motion in one pass over the slices (symplectic: velocities, then positions):
 ///   1  F <- contacts with neighbours, floor and pipe; histories forward

@@ -61,51 +61,75 @@ inline Lanes root(const Lanes& a) {
 #endif
 }
 
-inline bool any(const Mask& a) {
+/// One bit a lane.
+inline unsigned bits(const Mask& a) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return _mm512_movepi64_mask((__m512i)a) != 0;
+  return _mm512_movepi64_mask((__m512i)a);
 #else
-  std::int64_t each[lanes], some = 0;
-  std::memcpy(each, &a, sizeof a);
-  for (const std::int64_t one : each) some |= one;
-  return some != 0;
+  unsigned result = 0;
+  for (int l = 0; l < lanes; ++l) result |= (a[l] != 0 ? 1u : 0u) << l;
+  return result;
 #endif
 }
 
 inline double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
 
-using Four = double __attribute__((vector_size(32)));
-using Two = double __attribute__((vector_size(16)));
+/// [records[i], records[j]] of four doubles each.
+inline Lanes join_fours(const double* records, std::int32_t i, std::int32_t j) {
+  const double *first = records + 4 * static_cast<std::ptrdiff_t>(i),
+               *second = records + 4 * static_cast<std::ptrdiff_t>(j);
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  // A masked broadcast from memory spares the shuffle unit, which the transposition needs.
+  return (Lanes)_mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(first)), 0xf0,
+                                            _mm256_loadu_pd(second));
+#else
+  Lanes both;
+  std::memcpy(&both, first, 4 * sizeof(double));
+  std::memcpy(reinterpret_cast<double*>(&both) + 4, second, 4 * sizeof(double));
+  return both;
+#endif
+}
 
-/// Records of four doubles at eight places, turned into four lanes: a[f] holds field f of all eight.
-inline void load_fours(const double* records, const std::int32_t* at, Lanes a[4]) {
-  const auto record = [&](int l) {
-    Four one;
-    std::memcpy(&one, records + 4 * static_cast<std::ptrdiff_t>(at[l]), sizeof one);
-    return one;
-  };
-  const auto two = [&](int l) { return __builtin_shufflevector(record(l), record(l + 4), 0, 1, 2, 3, 4, 5, 6, 7); };
-  const Lanes p0 = two(0), p1 = two(1), p2 = two(2), p3 = two(3);
-  const Lanes even01 = __builtin_shufflevector(p0, p1, 0, 8, 2, 10, 4, 12, 6, 14);
-  const Lanes odd01 = __builtin_shufflevector(p0, p1, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Lanes even23 = __builtin_shufflevector(p2, p3, 0, 8, 2, 10, 4, 12, 6, 14);
-  const Lanes odd23 = __builtin_shufflevector(p2, p3, 1, 9, 3, 11, 5, 13, 7, 15);
+/// [records[at[0]], records[at[2]], records[at[4]], records[at[6]]] of two doubles each.
+inline Lanes join_twos(const double* records, const std::int32_t* at) {
+  const auto record = [&](int l) { return records + 2 * static_cast<std::ptrdiff_t>(at[l]); };
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  __m512d four = _mm512_castpd128_pd512(_mm_loadu_pd(record(0)));
+  four = _mm512_mask_broadcast_f64x2(four, 0x0c, _mm_loadu_pd(record(2)));
+  four = _mm512_mask_broadcast_f64x2(four, 0x30, _mm_loadu_pd(record(4)));
+  return (Lanes)_mm512_mask_broadcast_f64x2(four, 0xc0, _mm_loadu_pd(record(6)));
+#else
+  Lanes four;
+  for (int l = 0; l < lanes; l += 2) {
+    std::memcpy(reinterpret_cast<double*>(&four) + l, record(l), 2 * sizeof(double));
+  }
+  return four;
+#endif
+}
+
+/// Turns records of four doubles, given as [record l, record l+4] for l = 0 to 3, into lanes: a[f] holds field f of
+/// all.
+inline void transpose_fours(const Lanes p[4], Lanes a[4]) {
+  const Lanes even01 = __builtin_shufflevector(p[0], p[1], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes odd01 = __builtin_shufflevector(p[0], p[1], 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes even23 = __builtin_shufflevector(p[2], p[3], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes odd23 = __builtin_shufflevector(p[2], p[3], 1, 9, 3, 11, 5, 13, 7, 15);
   a[0] = __builtin_shufflevector(even01, even23, 0, 1, 8, 9, 4, 5, 12, 13);
   a[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 8, 9, 4, 5, 12, 13);
   a[2] = __builtin_shufflevector(even01, even23, 2, 3, 10, 11, 6, 7, 14, 15);
   a[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
+/// Records of four doubles at eight places: a[f] holds field f of all eight.
+inline void load_fours(const double* records, const std::int32_t* at, Lanes a[4]) {
+  const Lanes p[4] = {join_fours(records, at[0], at[4]), join_fours(records, at[1], at[5]),
+                      join_fours(records, at[2], at[6]), join_fours(records, at[3], at[7])};
+  transpose_fours(p, a);
+}
+
 /// The same for records of two doubles.
 inline void load_twos(const double* records, const std::int32_t* at, Lanes a[2]) {
-  const auto record = [&](int l) {
-    Two one;
-    std::memcpy(&one, records + 2 * static_cast<std::ptrdiff_t>(at[l]), sizeof one);
-    return one;
-  };
-  const auto two = [&](int l) { return __builtin_shufflevector(record(l), record(l + 2), 0, 1, 2, 3); };
-  const Lanes even = __builtin_shufflevector(two(0), two(4), 0, 1, 2, 3, 4, 5, 6, 7);
-  const Lanes odd = __builtin_shufflevector(two(1), two(5), 0, 1, 2, 3, 4, 5, 6, 7);
+  const Lanes even = join_twos(records, at), odd = join_twos(records, at + 1);
   a[0] = __builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14);
   a[1] = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
 }

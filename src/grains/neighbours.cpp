@@ -1,6 +1,7 @@
 #include "grains/neighbours.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -17,7 +18,9 @@ using base::square;
 namespace {
 
 constexpr int most_neighbours = 32;  ///< a plane packing has about six; more means grains lie on top of each other
-constexpr double close_by = 1.02;    ///< pairs within this factor of touching come first in a list, see fill_rows
+constexpr int window = 64;           ///< grains that are sorted by the number of their contacts among each other
+/// Pairs within this factor of touching come first in a list: what touches, or will soon.
+constexpr double close_by = 1.005;
 
 /// Cells of at least one reach, numbered column by column.  The lowest and the highest row are open: a grain that flies
 /// far away costs no memory.
@@ -61,42 +64,29 @@ Cells make_cells(const State& s, double reach, double length) {
   return {columns, std::max(1, rows), length / columns, reach, *low};
 }
 
-/// Counting sort of the grains by cell: order[new place] = old place; stable, so the result depends on the state alone.
-void sort_by_cell(const State& s, const Cells& cells, ListScratch& w) {
+/// Counting sort of the grains by cell; stable, so that the result depends on the state alone.
+void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch& w) {
   const int n = s.count(), count = cells.columns * cells.rows;
   w.cell.resize(n);
-  w.order.resize(n);
-  w.new_place.resize(n);
+  w.old_of_rank.resize(n);
   w.cell_start.assign(count + 1, 0);
   for (int i = 0; i < n; ++i) {
     w.cell[i] = cells.column(s.x[i]) * cells.rows + cells.row(s.y[i]);
     ++w.cell_start[w.cell[i] + 1];
   }
   std::partial_sum(w.cell_start.begin(), w.cell_start.end(), w.cell_start.begin());
-  for (int i = 0; i < n; ++i) {
-    const int place = w.cell_start[w.cell[i]]++;
-    w.order[place] = i;
-    w.new_place[i] = place;
-  }
+  for (int i = 0; i < n; ++i) w.old_of_rank[w.cell_start[w.cell[i]]++] = i;
   for (int c = count; c > 0; --c) w.cell_start[c] = w.cell_start[c - 1];
   w.cell_start[0] = 0;
-}
 
-void reorder(Array& a, ListScratch& w) {
-  w.values.resize(a.size());
-  for (std::size_t k = 0; k < a.size(); ++k) w.values[k] = a[w.order[k]];
-  a.swap(w.values);
-}
-
-void reorder_all(State& s, Contacts& c, ListScratch& w) {
-  for (Array* a : {&s.x, &s.y, &s.u, &s.v, &s.omega, &s.diameter, &s.fluid.u, &s.fluid.v, &s.fluid.beta, &s.fluid.fx,
-                   &s.fluid.fy, &s.impulse_x, &s.impulse_y}) {
-    reorder(*a, w);
+  // Whole lanes may be read past the end.
+  for (Array* a : {&w.x, &w.y, &w.touching}) a->resize(n + lanes);
+  for (int rank = 0; rank < n; ++rank) {
+    const int i = w.old_of_rank[rank];
+    w.x[rank] = s.x[i];
+    w.y[rank] = s.y[i];
+    w.touching[rank] = 0.5 * gamma * s.diameter[i];
   }
-  for (Array& a : c.wall_spring) reorder(a, w);
-  w.ids.resize(s.id.size());
-  for (std::size_t k = 0; k < s.id.size(); ++k) w.ids[k] = s.id[w.order[k]];
-  s.id.swap(w.ids);
 }
 
 /// The two or three different columns around column c of a periodic row of columns.
@@ -111,122 +101,195 @@ int columns_around(int c, int columns, int around[3]) {
   return 3;
 }
 
-/// Neighbours of grain i into w.found, those close by first; their number into w.found_count (more than
-/// most_neighbours: too many, the rest is not stored).
-void find(const State& s, const Cells& cells, const Reach& reach, int i, ListScratch& w) {
-  std::int32_t* const close = w.found.data() + static_cast<std::ptrdiff_t>(i) * most_neighbours;
-  std::int32_t apart[most_neighbours];
+/// Neighbours of the grain of this rank into w.found, those close by first, and their numbers; one more than
+/// most_neighbours stands for too many.
+void find(const Cells& cells, const Reach& reach, int rank, ListScratch& w) {
+  // Two lists grow in one array: those close by from the front, the others from the back.
+  std::int32_t both[most_neighbours];
   int n_close = 0, n_apart = 0;
-  const double x = s.x[i], y = s.y[i], d = s.diameter[i];
+  const double x = w.x[rank], y = w.y[rank], touching = w.touching[rank];
   const int row = cells.row(y), low = std::max(0, row - 1), high = std::min(cells.rows - 1, row + 1);
   int around[3];
   const int n_around = columns_around(cells.column(x), cells.columns, around);
   for (int k = 0; k < n_around; ++k) {
     const int base = around[k] * cells.rows;
-    for (int j = w.cell_start[base + low]; j < w.cell_start[base + high + 1]; ++j) {
-      const double touching = 0.5 * reach.gamma * (d + s.diameter[j]);
-      const double d2 = square(nearest_image(s.x[j] - x, reach.length)) + square(s.y[j] - y);
-      if (d2 > square(touching + reach.skin) || j == i) continue;
-      if (n_close + n_apart == most_neighbours) {
-        w.found_count[i] = most_neighbours + 1;
+    const int end = w.cell_start[base + high + 1];
+    for (int j = w.cell_start[base + low]; j < end; j += lanes) {
+      const Lanes contact = touching + load(&w.touching[j], lanes);
+      const Lanes dx = nearest_image<Lanes>(load(&w.x[j], lanes) - x, reach.length), dy = load(&w.y[j], lanes) - y;
+      const Lanes d2 = dx * dx + dy * dy, far = contact + reach.skin;
+      unsigned here = bits(d2 <= far * far) & ((1u << std::min(lanes, end - j)) - 1);
+      if (rank >= j && rank < j + lanes) here &= ~(1u << (rank - j));
+      const unsigned close = bits(d2 < base::square(close_by) * contact * contact);
+      if (n_close + n_apart + std::popcount(here) > most_neighbours) {
+        w.found_all[rank] = most_neighbours + 1;
         return;
       }
-      if (d2 < square(close_by * touching)) {
-        close[n_close++] = j;
-      } else {
-        apart[n_apart++] = j;
+      for (; here != 0; here &= here - 1) {
+        const int l = std::countr_zero(here);
+        if (close >> l & 1) {
+          both[n_close++] = j + l;
+        } else {
+          both[most_neighbours - ++n_apart] = j + l;
+        }
       }
     }
   }
-  std::copy(apart, apart + n_apart, close + n_close);
-  w.found_count[i] = n_close + n_apart;
+  std::int32_t* const found = w.found.data() + static_cast<std::ptrdiff_t>(rank) * most_neighbours;
+  std::copy(both, both + n_close, found);
+  std::reverse_copy(both + most_neighbours - n_apart, both + most_neighbours, found + n_close);
+  w.found_close[rank] = n_close;
+  w.found_all[rank] = n_close + n_apart;
 }
 
-/// Rows of a slice: slot s of lane l is the s-th neighbour of that grain.  As those close by come first, the last rows
-/// mostly hold pairs that do not touch, which the force loop passes over.
+/// The final order of one window of ranks: by the number of pairs close by, then of all pairs.  Slices then hold grains
+/// with equally long lists, and few lanes idle.
+void sort_window(int begin, int end, ListScratch& w) {
+  std::int32_t by_all[window];
+  const auto counting_sort = [&](const std::int32_t* from, const std::vector<std::int32_t>& key, std::int32_t* to) {
+    int start[most_neighbours + 3] = {};
+    for (int k = 0; k < end - begin; ++k) ++start[key[from[k]] + 1];
+    std::partial_sum(start, start + most_neighbours + 3, start);
+    for (int k = 0; k < end - begin; ++k) to[start[key[from[k]]]++] = from[k];
+  };
+  std::int32_t ranks[window];
+  std::iota(ranks, ranks + (end - begin), begin);
+  counting_sort(ranks, w.found_all, by_all);
+  counting_sort(by_all, w.found_close, &w.rank_of_new[begin]);
+  for (int place = begin; place < end; ++place) {
+    const int rank = w.rank_of_new[place];
+    w.new_of_rank[rank] = place;
+    w.old_of_new[place] = w.old_of_rank[rank];
+    w.new_of_old[w.old_of_rank[rank]] = place;
+  }
+}
+
+void reorder(Array& a, ListScratch& w) {
+  w.values.resize(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) w.values[k] = a[w.old_of_new[k]];
+  a.swap(w.values);
+}
+
+void reorder_all(State& s, Contacts& c, ListScratch& w) {
+  for (Array* a : {&s.x, &s.y, &s.u, &s.v, &s.omega, &s.diameter, &s.fluid.u, &s.fluid.v, &s.fluid.beta, &s.fluid.fx,
+                   &s.fluid.fy, &s.impulse_x, &s.impulse_y}) {
+    reorder(*a, w);
+  }
+  for (Array& a : c.wall_spring) reorder(a, w);
+  w.ids.resize(s.id.size());
+  for (std::size_t k = 0; k < s.id.size(); ++k) w.ids[k] = s.id[w.old_of_new[k]];
+  s.id.swap(w.ids);
+}
+
+/// Row numbers of every slice: as many as its longest list, of these as many at the front as pairs close by.
+void count_rows(const State& s, Contacts& c, const ListScratch& w) {
+  const int n = s.count(), slices = (n + lanes - 1) / lanes;
+  c.first.resize(slices + 1);
+  c.first_apart.resize(slices);
+  c.first[0] = 0;
+  for (int k = 0; k < slices; ++k) {
+    int rows = 0, close = 0;
+    for (int i = k * lanes; i < std::min(n, (k + 1) * lanes); ++i) {
+      const int rank = w.rank_of_new[i];
+      if (w.found_all[rank] > most_neighbours) {
+        fail(Exit::diverged,
+             "grain {} at x = {} m, y = {} m has more than {} neighbours: grains lie on top of each other; use a "
+             "smaller grain step or a stiffer contact",
+             s.id[i], s.x[i], s.y[i], most_neighbours);
+      }
+      rows = std::max(rows, w.found_all[rank]);
+      close = std::max(close, w.found_close[rank]);
+    }
+    c.first_apart[k] = c.first[k] + close;
+    c.first[k + 1] = c.first[k] + rows;
+  }
+  c.neighbour.resize(static_cast<std::size_t>(c.first[slices]) * lanes);
+  c.spring.resize(c.neighbour.size());
+}
+
+/// Rows of a slice: slot s of lane l is the s-th neighbour of that grain.
 void fill_rows(int slice, int n, Contacts& c, const ListScratch& w) {
-  const int begin = slice * lanes, filled = std::min(lanes, n - begin);
-  for (int row = c.first[slice]; row < c.first[slice + 1]; ++row) {
-    const int s = row - c.first[slice];
-    for (int l = 0; l < lanes; ++l) {
-      const bool there = l < filled && s < w.found_count[begin + l];
-      const std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(row) * lanes + l;
-      c.neighbour[slot] = there ? w.found[static_cast<std::ptrdiff_t>(begin + l) * most_neighbours + s] : nobody(n);
-      c.spring[slot] = 0;
-    }
-  }
-}
-
-/// The history of every touching pair of the slice moves from the old lists to the new.  A touching pair is in both.
-void carry_springs(int slice, int n, Contacts& c, const ListScratch& w) {
+  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
+  const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(c.first[slice + 1]) * lanes;
+  std::fill(c.neighbour.begin() + begin, c.neighbour.begin() + end, nobody(n));
+  std::fill(c.spring.begin() + begin, c.spring.begin() + end, 0.0);
   for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
-    const int before = w.order[i], slice_before = before / lanes;
-    const std::int32_t* const found = w.found.data() + static_cast<std::ptrdiff_t>(i) * most_neighbours;
-    for (int row = w.first_before[slice_before]; row < w.first_before[slice_before + 1]; ++row) {
-      const std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(row) * lanes + before % lanes;
-      if (w.spring_before[slot] == 0) continue;
-      const std::int32_t other = w.new_place[w.neighbour_before[slot]];
-      const auto s = std::find(found, found + w.found_count[i], other) - found;
-      if (s < w.found_count[i]) c.spring[(c.first[slice] + s) * lanes + i % lanes] = w.spring_before[slot];
+    const int rank = w.rank_of_new[i];
+    const std::int32_t* const found = w.found.data() + static_cast<std::ptrdiff_t>(rank) * most_neighbours;
+    for (int s = 0; s < w.found_all[rank]; ++s) {
+      c.neighbour[begin + s * lanes + i % lanes] = w.new_of_rank[found[s]];
     }
   }
 }
 
-std::uint8_t walls_near(const State& s, int slice, const Reach& reach, const Circle& pipe) {
-  std::uint8_t walls = 0;
+/// The history of every touching pair of the slice moves from the old lists to the new.  A touching pair is in both, in
+/// the new one among those close by.
+void carry_springs(int slice, int n, Contacts& c, const ListScratch& w) {
+  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
+  const int close = c.first_apart[slice] - c.first[slice];
+  for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
+    const int old = w.old_of_new[i], old_slice = old / lanes;
+    for (int row = w.first_before[old_slice]; row < w.first_before[old_slice + 1]; ++row) {
+      const std::ptrdiff_t old_slot = static_cast<std::ptrdiff_t>(row) * lanes + old % lanes;
+      if (w.spring_before[old_slot] == 0) continue;
+      const std::int32_t other = w.new_of_old[w.neighbour_before[old_slot]];
+      for (int s = 0; s < close; ++s) {
+        const std::ptrdiff_t slot = begin + s * lanes + i % lanes;
+        if (c.neighbour[slot] == other) c.spring[slot] = w.spring_before[old_slot];
+      }
+    }
+  }
+}
+
+std::uint8_t near_what(const State& s, int slice, const Reach& reach, double list_reach, const Circle& pipe) {
+  std::uint8_t near = 0;
   for (int i = slice * lanes; i < std::min(s.count(), (slice + 1) * lanes); ++i) {
     const double contact = 0.5 * reach.gamma * s.diameter[i] + reach.skin;
-    if (s.y[i] < contact + 0.5 * (reach.gamma - 1) * reach.floor_diameter) walls |= wall_floor;
+    if (s.y[i] < contact + 0.5 * (reach.gamma - 1) * reach.floor_diameter) near |= near_floor;
     const double d2 = square(nearest_image(pipe.x - s.x[i], reach.length)) + square(pipe.y - s.y[i]);
-    if (pipe.present && d2 < square(0.5 * pipe.diameter + contact)) walls |= wall_pipe;
+    if (pipe.present && d2 < square(0.5 * pipe.diameter + contact)) near |= near_pipe;
+    // Farther from the seam than this, neither the grain nor a neighbour can cross it before the next lists.
+    const double seam = list_reach + reach.skin;
+    if (s.x[i] < seam || s.x[i] > reach.length - seam) near |= near_seam;
   }
-  return walls;
+  return near;
 }
 
 }  // namespace
 
 void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Circle& pipe) {
   check_places(s, reach.length);
-  const int n = s.count(), slices = (n + lanes - 1) / lanes;
-  if (n == 0) fail(Exit::invalid_case, "grains.count = 0: a bed needs at least one grain");
+  const int n = s.count(), slices = (n + lanes - 1) / lanes, windows = (n + window - 1) / window;
+  if (n == 0) fail(Exit::invalid_case, "bed.count = 0: a bed needs at least one grain");
   const double largest = *std::max_element(s.diameter.begin(), s.diameter.end());
-  const Cells cells = make_cells(s, reach.gamma * largest + reach.skin, reach.length);
+  const double list_reach = reach.gamma * largest + reach.skin;
+  const Cells cells = make_cells(s, list_reach, reach.length);
   for (Array& a : c.wall_spring) a.resize(n, 0.0);
-  sort_by_cell(s, cells, w);
-  reorder_all(s, c, w);
 
+  rank_by_cell(s, cells, reach.gamma, w);
   w.found.resize(static_cast<std::size_t>(n) * most_neighbours);
-  w.found_count.resize(n);
-  base::for_each_item(0, slices, [&](int slice) {
-    for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) find(s, cells, reach, i, w);
+  for (auto* a : {&w.found_close, &w.found_all, &w.old_of_new, &w.new_of_old, &w.rank_of_new, &w.new_of_rank}) {
+    a->resize(n);
+  }
+  base::for_each_item(0, windows, [&](int k) {
+    const int begin = k * window, end = std::min(n, begin + window);
+    for (int rank = begin; rank < end; ++rank) {
+      w.found_close[rank] = 0;
+      find(cells, reach, rank, w);
+    }
+    sort_window(begin, end, w);
   });
+  reorder_all(s, c, w);
 
   w.first_before.swap(c.first);
   w.neighbour_before.swap(c.neighbour);
   w.spring_before.swap(c.spring);
-  const bool carry = !w.first_before.empty();
-  c.first.resize(slices + 1);
-  c.first[0] = 0;
-  for (int k = 0; k < slices; ++k) {
-    int rows = 0;
-    for (int i = k * lanes; i < std::min(n, (k + 1) * lanes); ++i) {
-      if (w.found_count[i] > most_neighbours) {
-        fail(Exit::diverged,
-             "grain {} at x = {} m, y = {} m has more than {} neighbours: grains lie on top of each other; use a "
-             "smaller grain step or a stiffer contact",
-             s.id[i], s.x[i], s.y[i], most_neighbours);
-      }
-      rows = std::max(rows, w.found_count[i]);
-    }
-    c.first[k + 1] = c.first[k] + rows;
-  }
-  c.neighbour.resize(static_cast<std::size_t>(c.first[slices]) * lanes);
-  c.spring.resize(c.neighbour.size());
-  c.walls.resize(slices);
+  count_rows(s, c, w);
+  c.near.resize(slices);
   base::for_each_item(0, slices, [&](int slice) {
     fill_rows(slice, n, c, w);
-    if (carry) carry_springs(slice, n, c, w);
-    c.walls[slice] = walls_near(s, slice, reach, pipe);
+    if (!w.first_before.empty()) carry_springs(slice, n, c, w);
+    c.near[slice] = near_what(s, slice, reach, list_reach, pipe);
   });
   c.x_built = s.x;
   c.y_built = s.y;

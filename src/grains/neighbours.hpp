@@ -15,8 +15,8 @@
 /// bit.
 namespace livebed::grains {
 
-/// Walls that the grains of a slice may touch; bits of Contacts::walls.
-enum Wall : std::uint8_t { wall_floor = 1, wall_pipe = 2 };
+/// What the grains of a slice may meet before the lists are rebuilt; bits of Contacts::near.
+enum Near : std::uint8_t { near_floor = 1, near_pipe = 2, near_seam = 4 };
 
 /// Slots for what a contact with a wall remembers: a plane, or the even and the odd grains of a floor of grains; the
 /// pipe.
@@ -24,22 +24,27 @@ enum WallSlot : int { slot_floor = 0, slot_floor_odd = 1, slot_pipe = 2, wall_sl
 
 /// Lists and histories: everything beside State that a checkpoint must hold to go on with the same bits.
 struct Contacts {
-  std::vector<std::int32_t> first;              ///< slice k owns rows first[k] to first[k+1] of eight slots each
+  std::vector<std::int32_t> first;        ///< slice k owns rows first[k] to first[k+1] of eight slots each
+  std::vector<std::int32_t> first_apart;  ///< from this row of a slice on no pair has touched since the lists exist
   base::AlignedVector<std::int32_t> neighbour;  ///< the other grain, row by row; nobody() where a lane has no more
   Array spring;                                 ///< e_s of the same slot [N]
   std::array<Array, wall_slots> wall_spring;    ///< e_s of each grain with each wall [N]
-  std::vector<std::uint8_t> walls;              ///< of each slice, bits of Wall
+  std::vector<std::uint8_t> near;               ///< of each slice, bits of Near
   Array x_built, y_built;                       ///< centres when the lists were built [m]
   Circle pipe_built;                            ///< and the pipe
   std::int64_t rebuilds = 0;
 
-  int slices() const { return static_cast<int>(walls.size()); }
+  int slices() const { return static_cast<int>(near.size()); }
   bool built() const { return !first.empty(); }
 };
 
-/// Buffers of rebuild, kept so that a running simulation allocates nothing.
+/// Buffers of rebuild, kept so that a running simulation allocates nothing.  "Rank": the place of a grain when all are
+/// sorted by cells alone.
 struct ListScratch {
-  std::vector<std::int32_t> cell, cell_start, order, new_place, found, found_count;
+  std::vector<std::int32_t> cell, cell_start;  ///< of each grain; first rank of each cell
+  std::vector<std::int32_t> old_of_rank, old_of_new, new_of_old, rank_of_new, new_of_rank;
+  Array x, y, touching;                                     ///< by rank: centre, gamma r
+  std::vector<std::int32_t> found, found_close, found_all;  ///< by rank: neighbours (ranks), how many close by, in all
   std::vector<std::int32_t> first_before;
   base::AlignedVector<std::int32_t> neighbour_before;
   Array spring_before, values;

@@ -161,14 +161,14 @@ TEST(neighbours, slices_near_walls_are_marked) {
       const double contact = 0.5 * 1.03 * s.diameter[i] + reach.skin;
       const double dx = nearest_image(s.x[i] - pipe.x, reach.length), dy = s.y[i] - pipe.y;
       if (std::hypot(dx, dy) < 0.005 + contact) {
-        EXPECT_TRUE(c.walls[i / lanes] & wall_pipe);
+        EXPECT_TRUE(c.near[i / lanes] & near_pipe);
       }
       if (s.y[i] + 0.5 * floor_diameter < contact + 1.03 * 0.5 * floor_diameter) {
-        EXPECT_TRUE(c.walls[i / lanes] & wall_floor);
+        EXPECT_TRUE(c.near[i / lanes] & near_floor);
       }
     }
-    EXPECT_LT(std::count(c.walls.begin(), c.walls.end(), 0), c.slices());
-    EXPECT_GT(std::count(c.walls.begin(), c.walls.end(), 0), c.slices() / 3);
+    EXPECT_LT(std::count(c.near.begin(), c.near.end(), 0), c.slices());
+    EXPECT_GT(std::count(c.near.begin(), c.near.end(), 0), c.slices() / 3);
   }
 }
 
