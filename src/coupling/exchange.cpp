@@ -44,21 +44,26 @@ Coupler::Coupler(const Params& params, const flow::Mesh& mesh, const flow::Stagg
       viscosity_(viscosity),
       volume_u_(slab_volume(at_u, slab_)),
       volume_v_(slab_volume(at_v, slab_)),
-      at_u_(at_u, 1, mesh.nx - 1, params.kernel * grain_diameter),
-      at_v_(at_v, 0, mesh.nx - 1, params.kernel * grain_diameter),
+      at_u_(at_u, mesh.aperture_x, 1, mesh.nx - 1, params.kernel * grain_diameter),
+      at_v_(at_v, mesh.aperture_y, 0, mesh.nx - 1, params.kernel * grain_diameter),
       owed_u_(mesh.nx, mesh.ny),
       owed_v_(mesh.nx, mesh.ny) {
   const flow::Staggering at_c = flow::Staggering::centres(mesh);
   volume_c_ = slab_volume(at_c, slab_);
-  at_c_ = Transfer(at_c, 0, mesh.nx - 1, params.kernel * grain_diameter);
+  at_c_ = Transfer(at_c, mesh.volume, 0, mesh.nx - 1, params.kernel * grain_diameter);
+}
+
+void Coupler::locate(const grains::State& g) {
+  at_u_.locate(g);
+  at_v_.locate(g);
+  located_ = true;
 }
 
 void Coupler::load_flow(grains::State& g, flow::State& s, double dt, bool held) {
   if (params_.mode == Mode::none) return;
-  at_u_.bin(g);
-  at_v_.bin(g);
-  at_u_.gather(s.u, g, g.fluid.u);
-  at_v_.gather(s.v, g, g.fluid.v);
+  if (!located_) locate(g);
+  at_u_.gather(s.u, g.fluid.u);
+  at_v_.gather(s.v, g.fluid.v);
   const double moving = held ? 0.0 : 1.0;
   std::visit(
       [&](const auto& drag) {
@@ -74,10 +79,10 @@ void Coupler::load_flow(grains::State& g, flow::State& s, double dt, bool held) 
   for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v}) f->fill(0.0);
   const bool implicit = held || params_.exchange == Exchange::implicit;
   if (implicit) {
-    at_u_.scatter(g, std::array{&load.beta_u, &load.force_u}, [&](int k) {
+    at_u_.scatter(std::array{&load.beta_u, &load.force_u}, [&](int k) {
       return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * g.u[k]};
     });
-    at_v_.scatter(g, std::array{&load.beta_v, &load.force_v}, [&](int k) {
+    at_v_.scatter(std::array{&load.beta_v, &load.force_v}, [&](int k) {
       return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * g.v[k]};
     });
   }
@@ -101,12 +106,14 @@ void Coupler::push_grains(const flow::State& s, grains::State& g) {
   std::fill(g.impulse_x.begin(), g.impulse_x.end(), 0.0);
   std::fill(g.impulse_y.begin(), g.impulse_y.end(), 0.0);
   if (params_.mode == Mode::none) return;
-  at_u_.gather(s.u, g, g.fluid.u);
-  at_v_.gather(s.v, g, g.fluid.v);
+  at_u_.gather(s.u, g.fluid.u);
+  at_v_.gather(s.v, g.fluid.v);
 }
 
 void Coupler::collect(const grains::State& g, const flow::State& s, double dt) {
+  located_ = false;  // the grains have moved
   if (params_.mode != Mode::two_way) return;
+  locate(g);
   const auto one = [&](Transfer& at, const grains::Array& impulse, const Field& volume, const Field& velocity,
                        const Field& beta, const Field& force, Field& owed, double& to_grains, double& to_flow,
                        double& carried) {
@@ -118,8 +125,7 @@ void Coupler::collect(const grains::State& g, const flow::State& s, double dt) {
       taken += base::vector_sum(0, nx_, [&](int i) { return dt * (f[i] - b[i] * u[i]) * v[i]; });
       vector_loop(0, nx_, [&](int i) { o[i] -= dt * (f[i] - b[i] * u[i]) * v[i]; });
     }
-    at.bin(g);
-    at.scatter(g, std::array{&owed}, [&](int k) { return std::array{-impulse[k]}; });
+    at.scatter(std::array{&owed}, [&](int k) { return std::array{-impulse[k]}; });
     to_flow += taken;
     for (int k = 0; k < g.count(); ++k) to_grains += impulse[k];
     carried = total(owed);
@@ -132,8 +138,8 @@ void Coupler::collect(const grains::State& g, const flow::State& s, double dt) {
 
 void Coupler::solid_fraction(const grains::State& g, Field& fraction) {
   fraction.fill(0.0);
-  at_c_.bin(g);
-  at_c_.scatter(g, std::array{&fraction}, [&](int k) { return std::array{base::sphere_volume(g.diameter[k])}; });
+  at_c_.locate(g);
+  at_c_.scatter(std::array{&fraction}, [&](int k) { return std::array{base::sphere_volume(g.diameter[k])}; });
   for_each_item(0, ny_, [&](int j) {
     const double* v = volume_c_.row(j);
     double* f = fraction.row(j);

@@ -52,12 +52,15 @@ public:
   void restore_ledger(const ImpulseLedger& ledger) { ledger_ = ledger; }
 
 private:
+  void locate(const grains::State& g);
+
   Params params_;
   DragLaw drag_;
   int nx_ = 0, ny_ = 0;
   double slab_ = 0, density_ = 0, viscosity_ = 0;
   base::Field volume_u_, volume_v_, volume_c_;  ///< of the control volumes [m3], slab included
   Transfer at_u_, at_v_, at_c_;
+  bool located_ = false;         ///< weights of u and v belong to the present places of the grains
   base::Field owed_u_, owed_v_;  ///< impulse owed to the flow [N s]
   ImpulseLedger ledger_;
 };

@@ -10,6 +10,8 @@ namespace livebed::coupling {
 
 namespace {
 
+constexpr int grains_a_block = 256;
+
 /// Integral of 15/16 (1 - s^2)^2 from -1 to s.
 double kernel_integral(double s) {
   s = std::clamp(s, -1.0, 1.0);
@@ -19,7 +21,8 @@ double kernel_integral(double s) {
 
 }  // namespace
 
-Transfer::Transfer(const flow::Staggering& at, int first_column, int last_column, double half_width)
+Transfer::Transfer(const flow::Staggering& at, const base::Field& aperture, int first_column, int last_column,
+                   double half_width)
     : half_width_(half_width), first_column_(first_column), first_row_(at.j0), open_(at.volume) {
   // The volumes of u begin at the centre of cell 0, those of scalars and of v at the inlet; y likewise.
   double edge = at.shift_x ? 0.5 * at.hx[3] : 0.0;
@@ -29,18 +32,16 @@ Transfer::Transfer(const flow::Staggering& at, int first_column, int last_column
   edges_y_.push_back(edge);
   for (int j = at.j0; j < at.j1; ++j) edges_y_.push_back(edge += at.height[j + 2]);
 
-  double narrowest = edges_x_[1] - edges_x_[0];
-  for (std::size_t k = 0; k + 1 < edges_x_.size(); ++k) narrowest = std::min(narrowest, edges_x_[k + 1] - edges_x_[k]);
-  for (std::size_t k = 0; k + 1 < edges_y_.size(); ++k) narrowest = std::min(narrowest, edges_y_[k + 1] - edges_y_[k]);
-  if (2 * half_width / narrowest + 2 > widest)
-    base::fail(base::Exit::invalid_case,
-               "coupling.kernel: half-width {:.3g} m spans more than {} cells of {:.3g} m; use a smaller kernel or "
-               "larger cells",
-               half_width, widest, narrowest);
+  const auto narrowest = [](const std::vector<double>& edges) {
+    double width = edges[1] - edges[0];
+    for (std::size_t k = 0; k + 1 < edges.size(); ++k) width = std::min(width, edges[k + 1] - edges[k]);
+    return width;
+  };
+  widest_ = static_cast<int>(2 * half_width / std::min(narrowest(edges_x_), narrowest(edges_y_))) + 2;
 
   for (int j = at.j0; j < at.j1; ++j)
     for (int i = first_column; i <= last_column; ++i)
-      open_(i, j) = at.volume(i, j) / (at.width[i + 2] * at.height[j + 2]);
+      open_(i, j) = aperture(i, j) > 0 ? at.volume(i, j) / (at.width[i + 2] * at.height[j + 2]) : 0.0;
 
   // Bins at least one kernel wide plus the volumes it touches at either end.
   double widest_volume = 0;
@@ -48,12 +49,17 @@ Transfer::Transfer(const flow::Staggering& at, int first_column, int last_column
     widest_volume = std::max(widest_volume, edges_x_[k + 1] - edges_x_[k]);
   const double length = edges_x_.back() - edges_x_.front(), wanted = 2 * half_width + 2 * widest_volume;
   const int bins = std::max(1, static_cast<int>(length / wanted));
-  for (int k = 1; k < bins; ++k) bin_edges_.push_back(edges_x_.front() + length * k / bins);
   bin_first_.assign(bins + 1, 0);
 }
 
-void Transfer::bin(const grains::State& g) {
+void Transfer::locate(const grains::State& g) {
   const int n = g.count(), bins = static_cast<int>(bin_first_.size()) - 1;
+  footprint_.resize(n);
+  weight_x_.resize(static_cast<std::size_t>(n) * widest_);
+  weight_y_.resize(static_cast<std::size_t>(n) * widest_);
+  base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int k) {
+    for (int m = k * grains_a_block; m < std::min(n, (k + 1) * grains_a_block); ++m) locate_one(m, g.x[m], g.y[m]);
+  });
   const double low = edges_x_.front(), scale = bins / (edges_x_.back() - low);
   bin_of_.resize(n);
   order_.resize(n);
@@ -68,9 +74,11 @@ void Transfer::bin(const grains::State& g) {
   bin_first_[0] = 0;
 }
 
-int Transfer::span(const std::vector<double>& edges, double low, double high, int& count) {
-  const int last = static_cast<int>(edges.size()) - 2;  // index of the last volume
-  // Volumes are nearly even: guess, then walk.
+namespace {
+
+/// First volume and number of volumes between low and high; volumes are nearly even, so a guess and a walk find them.
+int span(const std::vector<double>& edges, double low, double high, int& count) {
+  const int last = static_cast<int>(edges.size()) - 2;
   int a = static_cast<int>((low - edges.front()) / (edges.back() - edges.front()) * (last + 1));
   a = std::clamp(a, 0, last);
   while (a > 0 && edges[a] > low) --a;
@@ -81,48 +89,55 @@ int Transfer::span(const std::vector<double>& edges, double low, double high, in
   return a;
 }
 
-void Transfer::footprint(double x, double y, Footprint& f) const {
+void weigh(const std::vector<double>& edges, int first, int count, double center, double half_width, double* weight) {
+  double before = kernel_integral((edges[first] - center) / half_width);
+  for (int k = 0; k < count; ++k) {
+    const double after = kernel_integral((edges[first + k + 1] - center) / half_width);
+    weight[k] = after - before;
+    before = after;
+  }
+}
+
+}  // namespace
+
+void Transfer::locate_one(int n, double x, double y) {
+  // The volumes of u begin and end half a cell inside the box, those of v above the floor: a grain beyond counts at the
+  // edge, or a kernel narrower than that half cell would find nothing.
+  x = std::clamp(x, edges_x_.front(), edges_x_.back());
+  y = std::clamp(y, edges_y_.front(), edges_y_.back());
+  Footprint& f = footprint_[n];
+  double *wx = &weight_x_[static_cast<std::size_t>(n) * widest_],
+         *wy = &weight_y_[static_cast<std::size_t>(n) * widest_];
   const int a = span(edges_x_, x - half_width_, x + half_width_, f.ni);
   const int b = span(edges_y_, y - half_width_, y + half_width_, f.nj);
-  const auto weigh = [&](const std::vector<double>& edges, int first, int count, double center, double* weight) {
-    double before = kernel_integral((edges[first] - center) / half_width_);
-    for (int k = 0; k < count; ++k) {
-      const double after = kernel_integral((edges[first + k + 1] - center) / half_width_);
-      weight[k] = after - before;
-      before = after;
-    }
-  };
-  weigh(edges_x_, a, f.ni, x, f.wx);
-  weigh(edges_y_, b, f.nj, y, f.wy);
+  weigh(edges_x_, a, f.ni, x, half_width_, wx);
+  weigh(edges_y_, b, f.nj, y, half_width_, wy);
   f.i0 = first_column_ + a;
   f.j0 = first_row_ + b;
   double sum = 0;
-  for (int k = 0; k < f.nj; ++k) {
-    const double* open = open_.row(f.j0 + k) + f.i0;
+  for_each_row(n, [&](int, int ni, int, double share, const double* weight, const double* open) {
     double row = 0;
-    for (int m = 0; m < f.ni; ++m) row += f.wx[m] * open[m];
-    sum += f.wy[k] * row;
-  }
+    for (int m = 0; m < ni; ++m) row += weight[m] * open[m];
+    sum += share * row;
+  });
   // A grain with no water anywhere around it has been driven deep into the pipe: the NaN reaches its velocity, and the
   // check of the grains names it.
-  f.scale = sum > 0 ? 1.0 / sum : std::numeric_limits<double>::quiet_NaN();
+  const double scale = sum > 0 ? 1.0 / sum : std::numeric_limits<double>::quiet_NaN();
+  for (int k = 0; k < f.nj; ++k) wy[k] *= scale;
 }
 
-void Transfer::gather(const base::Field& field, const grains::State& g, grains::Array& values) const {
-  constexpr int block = 256;
-  const int n = g.count();
-  base::for_each_item(0, (n + block - 1) / block, [&](int k) {
-    Footprint f;
-    for (int m = k * block; m < std::min(n, (k + 1) * block); ++m) {
-      footprint(g.x[m], g.y[m], f);
+void Transfer::gather(const base::Field& field, grains::Array& values) const {
+  const int n = static_cast<int>(footprint_.size());
+  base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int k) {
+    for (int m = k * grains_a_block; m < std::min(n, (k + 1) * grains_a_block); ++m) {
       double sum = 0;
-      for (int b = 0; b < f.nj; ++b) {
-        const double *open = open_.row(f.j0 + b) + f.i0, *v = field.row(f.j0 + b) + f.i0;
+      for_each_row(m, [&](int i0, int ni, int j, double wy, const double* wx, const double* open) {
+        const double* v = field.row(j) + i0;
         double row = 0;
-        for (int a = 0; a < f.ni; ++a) row += f.wx[a] * open[a] * v[a];
-        sum += f.wy[b] * row;
-      }
-      values[m] = sum * f.scale;
+        for (int a = 0; a < ni; ++a) row += wx[a] * open[a] * v[a];
+        sum += wy * row;
+      });
+      values[m] = sum;
     }
   });
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/field.hpp"
+#include "base/loops.hpp"
 #include "flow/staggering.hpp"
 #include "grains/state.hpp"
 
@@ -15,38 +16,63 @@ namespace livebed::coupling {
 class Transfer {
 public:
   Transfer() = default;
-  /// at: the volumes; first, last column that may receive; half_width of the kernel [m].
-  Transfer(const flow::Staggering& at, int first_column, int last_column, double half_width);
+  /// at: the volumes; aperture: a volume whose own face is closed receives nothing; first, last column that may
+  /// receive; half_width of the kernel [m].
+  Transfer(const flow::Staggering& at, const base::Field& aperture, int first_column, int last_column,
+           double half_width);
 
-  /// Sorts the grains into bins of columns that two bins apart share no volume.  Call when grains have moved.
-  void bin(const grains::State& g);
+  /// Computes the weights of every grain and sorts the grains into bins of columns; two bins apart share no volume.  To
+  /// be called when grains have moved or changed places, before gather and scatter.
+  void locate(const grains::State& g);
 
   /// values[n] = kernel mean of the field at grain n.
-  void gather(const base::Field& field, const grains::State& g, grains::Array& values) const;
+  void gather(const base::Field& field, grains::Array& values) const;
 
   /// field(i,j) += sum over grains of weight x values(n), for several fields at once: values(n) returns an array of M.
   /// The order of additions is fixed whatever the number of threads.
   template <std::size_t M, class Values>
-  void scatter(const grains::State& g, const std::array<base::Field*, M>& fields, Values&& values) const;
+  void scatter(const std::array<base::Field*, M>& fields, Values&& values) const {
+    const int bins = static_cast<int>(bin_first_.size()) - 1;
+    for (int parity = 0; parity < 2; ++parity)
+      base::for_each_item(0, (bins - parity + 1) / 2, [&](int half) {
+        const int bin = 2 * half + parity;
+        for (int k = bin_first_[bin]; k < bin_first_[bin + 1]; ++k) {
+          const int n = order_[k];
+          const std::array<double, M> value = values(n);
+          for_each_row(n, [&](int i0, int ni, int j, double wy, const double* wx, const double* open) {
+            for (std::size_t m = 0; m < M; ++m) {
+              double* to = fields[m]->row(j) + i0;
+              const double share = wy * value[m];
+              for (int a = 0; a < ni; ++a) to[a] += share * (wx[a] * open[a]);
+            }
+          });
+        }
+      });
+  }
 
 private:
-  static constexpr int widest = 48;  // volumes a kernel may span in one direction
+  /// The volumes a grain's kernel touches.
   struct Footprint {
     int i0, ni, j0, nj;
-    double wx[widest], wy[widest];
-    double scale;  // one over the sum of weight x openness
   };
-  void footprint(double x, double y, Footprint& f) const;
-  static int span(const std::vector<double>& edges, double low, double high, int& count);
+  /// Calls visit once for each row of volumes of grain n, with the weights along x and the open fractions of the row.
+  template <class Visit>
+  void for_each_row(int n, Visit&& visit) const {
+    const Footprint& f = footprint_[n];
+    const double *wx = &weight_x_[static_cast<std::size_t>(n) * widest_],
+                 *wy = &weight_y_[static_cast<std::size_t>(n) * widest_];
+    for (int b = 0; b < f.nj; ++b) visit(f.i0, f.ni, f.j0 + b, wy[b], wx, open_.row(f.j0 + b) + f.i0);
+  }
+  void locate_one(int n, double x, double y);
 
   double half_width_ = 0;
   int first_column_ = 0, first_row_ = 0;
+  int widest_ = 0;                         // most volumes a kernel spans in one direction
   std::vector<double> edges_x_, edges_y_;  // of the volumes that may receive
   base::Field open_;                       // open fraction of each
-  std::vector<double> bin_edges_;
+  std::vector<Footprint> footprint_;
+  std::vector<double> weight_x_, weight_y_;  // widest_ entries a grain; those along y hold the normalisation
   std::vector<int> bin_first_, order_, bin_of_;
 };
 
 }  // namespace livebed::coupling
-
-#include "coupling/transfer_scatter.hpp"
