@@ -39,8 +39,8 @@ struct Slice {
 }
 
 /// Contact with a circle that does not move: a grain of the floor, or the pipe.
-inline void push_circle(const Sweep& k, Slice& g, const Lanes& dx, const Lanes& dy, const Lanes& contact_distance,
-                        double* spring) {
+[[gnu::always_inline]] inline void push_circle(const Sweep& k, Slice& g, const Lanes& dx, const Lanes& dy,
+                                               const Lanes& contact_distance, double* spring) {
   const Lanes d2 = dx * dx + dy * dy;
   const Mask touching = d2 < contact_distance * contact_distance;
   const Lanes distance = root(d2);
@@ -57,7 +57,11 @@ struct WallSprings {
     const Lanes a = load(home, filled);
     std::memcpy(lane, &a, sizeof a);
   }
-  void keep() const { std::copy(lane, lane + filled, home); }
+  void keep() const {
+    Lanes a;
+    std::memcpy(&a, lane, sizeof a);
+    store(home, a, filled);
+  }
 };
 
 /// The nearest of a row of fixed grains `spacing` apart, the first of them at `start`: its distance in x.
@@ -67,7 +71,7 @@ inline Lanes to_nearest(const Lanes& x, double start, double spacing) {
   return dx;
 }
 
-void push_floor(const Sweep& k, Slice& g, Contacts& c, int begin, int filled) {
+[[gnu::always_inline]] inline void push_floor(const Sweep& k, Slice& g, Contacts& c, int begin, int filled) {
   const Lanes zero = Lanes{};
   if (k.floor == Floor::plane) {
     WallSprings springs(c.wall_spring[slot_floor], begin, filled);
@@ -88,7 +92,8 @@ void push_floor(const Sweep& k, Slice& g, Contacts& c, int begin, int filled) {
 }
 
 /// Returns through `impulse` what the pipe receives.
-void push_pipe(const Sweep& k, Slice& g, Contacts& c, int begin, int filled, double& impulse_x, double& impulse_y) {
+[[gnu::always_inline]] inline void push_pipe(const Sweep& k, Slice& g, Contacts& c, int begin, int filled,
+                                             double& impulse_x, double& impulse_y) {
   WallSprings springs(c.wall_spring[slot_pipe], begin, filled);
   Slice alone = g;
   alone.force_x = alone.force_y = alone.twist = Lanes{};

@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -70,6 +71,18 @@ inline unsigned bits(const Mask& a) {
   for (int l = 0; l < lanes; ++l) result |= (a[l] != 0 ? 1u : 0u) << l;
   return result;
 #endif
+}
+
+/// Writes first + l for every lane l whose bit is set, in order; returns how many.  Eight places must be free.
+inline int append_lanes(std::int32_t* to, std::int32_t first, unsigned which) {
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  const __m256i all = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_maskz_compress_epi32(static_cast<__mmask8>(which), all));
+#else
+  std::int32_t* next = to;
+  for (unsigned left = which; left != 0; left &= left - 1) *next++ = first + std::countr_zero(left);
+#endif
+  return std::popcount(which);
 }
 
 inline double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }

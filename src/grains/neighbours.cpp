@@ -1,7 +1,6 @@
 #include "grains/neighbours.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -17,7 +16,7 @@ using base::square;
 
 namespace {
 
-constexpr int most_neighbours = 32;  ///< a plane packing has about six; more means grains lie on top of each other
+constexpr int most_neighbours = 32;  ///< a plane packing has about six; a grain with nearly that many lies on others
 constexpr int window = 64;           ///< grains that are sorted by the number of their contacts among each other
 /// Pairs within this factor of touching come first in a list: what touches, or will soon.
 constexpr double close_by = 1.005;
@@ -104,8 +103,8 @@ int columns_around(int c, int columns, int around[3]) {
 /// Neighbours of the grain of this rank into w.found, those close by first, and their numbers; one more than
 /// most_neighbours stands for too many.
 void find(const Cells& cells, const Reach& reach, int rank, ListScratch& w) {
-  // Two lists grow in one array: those close by from the front, the others from the back.
-  std::int32_t both[most_neighbours];
+  std::int32_t* const close = w.found.data() + static_cast<std::ptrdiff_t>(rank) * most_neighbours;
+  std::int32_t apart[most_neighbours];
   int n_close = 0, n_apart = 0;
   const double x = w.x[rank], y = w.y[rank], touching = w.touching[rank];
   const int row = cells.row(y), low = std::max(0, row - 1), high = std::min(cells.rows - 1, row + 1);
@@ -120,24 +119,16 @@ void find(const Cells& cells, const Reach& reach, int rank, ListScratch& w) {
       const Lanes d2 = dx * dx + dy * dy, far = contact + reach.skin;
       unsigned here = bits(d2 <= far * far) & ((1u << std::min(lanes, end - j)) - 1);
       if (rank >= j && rank < j + lanes) here &= ~(1u << (rank - j));
-      const unsigned close = bits(d2 < base::square(close_by) * contact * contact);
-      if (n_close + n_apart + std::popcount(here) > most_neighbours) {
+      const unsigned near = bits(d2 < base::square(close_by) * contact * contact);
+      if (n_close + n_apart + lanes > most_neighbours) {
         w.found_all[rank] = most_neighbours + 1;
         return;
       }
-      for (; here != 0; here &= here - 1) {
-        const int l = std::countr_zero(here);
-        if (close >> l & 1) {
-          both[n_close++] = j + l;
-        } else {
-          both[most_neighbours - ++n_apart] = j + l;
-        }
-      }
+      n_close += append_lanes(close + n_close, j, here & near);
+      n_apart += append_lanes(apart + n_apart, j, here & ~near);
     }
   }
-  std::int32_t* const found = w.found.data() + static_cast<std::ptrdiff_t>(rank) * most_neighbours;
-  std::copy(both, both + n_close, found);
-  std::reverse_copy(both + most_neighbours - n_apart, both + most_neighbours, found + n_close);
+  std::copy(apart, apart + n_apart, close + n_close);
   w.found_close[rank] = n_close;
   w.found_all[rank] = n_close + n_apart;
 }
@@ -195,7 +186,7 @@ void count_rows(const State& s, Contacts& c, const ListScratch& w) {
         fail(Exit::diverged,
              "grain {} at x = {} m, y = {} m has more than {} neighbours: grains lie on top of each other; use a "
              "smaller grain step or a stiffer contact",
-             s.id[i], s.x[i], s.y[i], most_neighbours);
+             s.id[i], s.x[i], s.y[i], most_neighbours - lanes);
       }
       rows = std::max(rows, w.found_all[rank]);
       close = std::max(close, w.found_close[rank]);
