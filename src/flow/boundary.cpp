@@ -160,6 +160,7 @@ Boundary make_boundary(const Mesh& mesh, const Params& params) {
 void fill_velocity_ghosts(const Mesh& mesh, const Boundary& b, base::Field& u, base::Field& v) {
   const int nx = mesh.nx, ny = mesh.ny;
   const auto tangential = [](Wall wall) { return wall == Wall::no_slip ? -1.0 : 1.0; };
+  const double at_west = tangential(b.west), at_east = tangential(b.east);
   for (int j = 0; j < ny; ++j) {
     if (b.inlet) {
       u(0, j) = b.inlet_u[j];
@@ -168,7 +169,7 @@ void fill_velocity_ghosts(const Mesh& mesh, const Boundary& b, base::Field& u, b
     } else {
       u(0, j) = 0;
       u(-1, j) = -u(1, j), u(-2, j) = -u(2, j);
-      v(-1, j) = v(0, j), v(-2, j) = v(1, j);
+      v(-1, j) = at_west * v(0, j), v(-2, j) = at_west * v(1, j);
     }
     if (b.outlet) {
       u(nx + 1, j) = u(nx, j);
@@ -176,7 +177,7 @@ void fill_velocity_ghosts(const Mesh& mesh, const Boundary& b, base::Field& u, b
     } else {
       u(nx, j) = 0;
       u(nx + 1, j) = -u(nx - 1, j);
-      v(nx, j) = v(nx - 1, j), v(nx + 1, j) = v(nx - 2, j);
+      v(nx, j) = at_east * v(nx - 1, j), v(nx + 1, j) = at_east * v(nx - 2, j);
     }
   }
   const double below = tangential(b.floor), above = tangential(b.top),

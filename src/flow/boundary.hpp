@@ -9,8 +9,10 @@ namespace livebed::flow {
 
 /// What the four sides of the box do.
 struct Boundary {
-  bool inlet = true;   ///< west: prescribed profiles; otherwise a closed frictionless side
-  bool outlet = true;  ///< east: open, p = 0, vortices leave by convection; otherwise closed and frictionless
+  bool inlet = true;       ///< west: prescribed profiles; otherwise the closed side `west`
+  bool outlet = true;      ///< east: open, p = 0, vortices leave by convection; otherwise the closed side `east`
+  Wall west = Wall::slip;  ///< of a closed side: slip or no_slip
+  Wall east = Wall::slip;
   Wall floor = Wall::rough;
   double floor_roughness = 0;                           ///< ks [m]
   Wall top = Wall::slip;                                ///< slip is the symmetry lid

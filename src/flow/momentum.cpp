@@ -171,8 +171,8 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
   });
 }
 
-/// Wall friction of floor, lid and pipe gathered on the volumes of u and v.
-void gather_friction(const Mesh& m, Workspace& w) {
+/// Wall friction of floor, lid, closed sides and pipe gathered on the volumes of u and v.
+void gather_friction(const Mesh& m, const Boundary& b, const Params& params, Workspace& w) {
   for_each_item(0, m.ny, [&](int j) {
     const double *here = w.wall_c.row(j), *below = w.wall_c.row(j - 1);
     double *fu = w.friction_u.row(j), *fv = w.friction_v.row(j);
@@ -184,6 +184,12 @@ void gather_friction(const Mesh& m, Workspace& w) {
   for (int i = 1; i < m.nx; ++i) {
     w.friction_u(i, 0) += 0.5 * (w.floor_c[i - 1] * m.dx(i - 1) + w.floor_c[i] * m.dx(i));
     w.friction_u(i, m.ny - 1) += 0.5 * (w.top_c[i - 1] * m.dx(i - 1) + w.top_c[i] * m.dx(i));
+  }
+  const auto side = [&](Wall wall, int i) { return wall_friction(wall, 0, 0.5 * m.dx(i), 0, params.viscosity); };
+  const double west = b.inlet ? 0.0 : side(b.west, 0), east = b.outlet ? 0.0 : side(b.east, m.nx - 1);
+  for (int j = 1; j < m.ny; ++j) {
+    w.friction_v(0, j) += west * m.dy_face(j);
+    w.friction_v(m.nx - 1, j) += east * m.dy_face(j);
   }
 }
 
@@ -206,7 +212,7 @@ void predict_outlet(const Mesh& m, const Params& params, double dt, State& s, Wo
 
 void predict_velocity(const Mesh& m, const Boundary& b, const Params& params, const Staggering& at_u,
                       const Staggering& at_v, double dt, State& s, Workspace& w) {
-  gather_friction(m, w);
+  gather_friction(m, b, params, w);
   for_each_item(-2, m.ny + 2, [&](int j) {
     const double* nut = s.nut.row(j);
     double* gamma = w.gamma.row(j);
