@@ -13,7 +13,11 @@ namespace livebed::app {
 
 namespace {
 
-void on_signal(int signal) { run::request_stop(signal); }
+/// The first signal asks for a stop after the present step; a second one ends the program at once.
+void on_signal(int signal) {
+  run::request_stop(signal);
+  std::signal(signal, SIG_DFL);
+}
 
 std::string clock_time() {
   const std::time_t now = std::time(nullptr);
@@ -72,13 +76,10 @@ base::Exit run_with(const std::filesystem::path& folder, const RunArguments& arg
                     const std::function<base::Exit(const run::Options&)>& work) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a failed write
   Progress progress(arguments.quiet);
   std::ofstream log;
-  run::Options options;
-  options.wall_limit = arguments.wall_limit;
-  options.say = [&](const std::string& line) {
-    progress.clear();
-    if (!arguments.quiet) fmt::print(stderr, "{}\n", line);
+  const auto note = [&](const std::string& line) {
     // The folder appears only when the run has found it free.
     if (!log.is_open() && std::filesystem::is_directory(folder)) {
       log.open(folder / "log.txt", std::ios::app);
@@ -87,10 +88,24 @@ base::Exit run_with(const std::filesystem::path& folder, const RunArguments& arg
     }
     if (log.is_open()) log << clock_time() << ' ' << line << std::endl;
   };
+  run::Options options;
+  options.wall_limit = arguments.wall_limit;
+  options.say = [&](const std::string& line) {
+    progress.clear();
+    if (!arguments.quiet) fmt::print(stderr, "{}\n", line);
+    note(line);
+  };
   options.progress = [&](double t, double end, double S, double speed, double left) {
     progress(t, end, S, speed, left);
   };
-  const base::Exit code = work(options);
+  base::Exit code{};
+  try {
+    code = work(options);
+  } catch (const base::Fault& fault) {
+    progress.clear();
+    if (log.is_open()) note(fault.what());  // never into a folder that the run was refused
+    throw;
+  }
   progress.clear();
   if (code == base::Exit::signal)
     return static_cast<base::Exit>(static_cast<int>(base::Exit::signal) + run::stop_signal());

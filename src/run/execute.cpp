@@ -20,28 +20,28 @@ double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
 }
 
-/// Steps until the end, a signal or a limit; writes what is due and the summary.
+/// Steps until the end, a signal or a limit; writes what is due and the summary.  begun: when the program's work began,
+/// which is what the wall-time limit counts from.
 base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::filesystem::path& folder,
-                          const Options& options) {
+                          WallClock::time_point begun, const Options& options) {
   const casefile::Case& c = sim.resolved();
   const auto start = WallClock::now();
   const double time_start = sim.time();
   auto last_word = start;
-  const auto finish = [&](const char* why, base::Exit code, bool checkpoint) {
-    if (checkpoint) observers.checkpoint(sim);
+  const auto finish = [&](const char* why, base::Exit code) {
+    observers.checkpoint(sim);
     write_summary(folder, sim, observers.progress(), why);
     options.say(fmt::format("ended at t = {:.4g} s: {}", sim.time(), why));
     return code;
   };
   const auto show = [&] {
-    if (!options.progress || std::chrono::duration<double>(WallClock::now() - last_word).count() < 0.2) return;
+    if (!options.progress || seconds_since(last_word) < 0.2) return;
     last_word = WallClock::now();
     const double speed = (sim.time() - time_start) / seconds_since(start);
     options.progress(sim.time(), c.time.end, observers.scour_depth(), speed,
                      speed > 0 ? (c.time.end - sim.time()) / speed : 0);
   };
-  const auto limit_reached = [&] { return options.wall_limit > 0 && seconds_since(start) > options.wall_limit; };
-  bool just_released = false;
+  const auto limit_reached = [&] { return options.wall_limit > 0 && seconds_since(begun) > options.wall_limit; };
   while (sim.time() < c.time.end || !sim.clock().released) {
     try {
       if (sim.clock().released) {
@@ -50,28 +50,22 @@ base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::file
         sim.spin_up_step();
       } else {
         sim.release();
-        just_released = true;
+        options.say(fmt::format(
+            "grains released; end at t = {:.4g} s{}", c.time.end,
+            c.time_scale > 0 ? fmt::format(" = {:.3g} T, T = {:.3g} s", c.time.end / c.time_scale, c.time_scale) : ""));
       }
     } catch (const base::Fault& fault) {
       const auto saved = list_checkpoints(folder);
       const std::string good = saved.empty() ? "none was written yet" : saved.back().string();
-      const std::string message = fmt::format("{}; last good checkpoint: {}", fault.what(), good);
-      options.say(message);
-      throw base::Fault(fault.code(), message);
-    }
-    if (just_released) {
-      just_released = false;
-      options.say(fmt::format(
-          "grains released; end at t = {:.4g} s{}", c.time.end,
-          c.time_scale > 0 ? fmt::format(" = {:.3g} T, T = {:.3g} s", c.time.end / c.time_scale, c.time_scale) : ""));
+      base::fail(fault.code(), "{}; last good checkpoint: {}", fault.what(), good);
     }
     if (sim.clock().released) observers.observe(sim);
-    if (stop_requested) return finish("stopped by a signal", base::Exit::signal, true);
-    if (limit_reached()) return finish("stopped by the wall-time limit", base::Exit::stopped_by_limit, true);
-    if (c.time.stop_at_equilibrium && observers.at_equilibrium(c)) return finish("equilibrium", base::Exit::ok, true);
+    if (stop_requested) return finish("stopped by a signal", base::Exit::signal);
+    if (limit_reached()) return finish("stopped by the wall-time limit", base::Exit::stopped_by_limit);
+    if (c.time.stop_at_equilibrium && observers.at_equilibrium(c)) return finish("equilibrium", base::Exit::ok);
     show();
   }
-  return finish("end of time", base::Exit::ok, true);
+  return finish("end of time", base::Exit::ok);
 }
 
 }  // namespace
@@ -106,11 +100,12 @@ base::Exit execute(const casefile::Case& given, const std::filesystem::path& fol
                           c.time.spin_up, sim.flow().mesh().nx, sim.flow().mesh().ny, c.flow.current.shear_velocity,
                           c.theta));
   Observers observers(folder, sim, progress);
-  return advance_to_end(sim, observers, folder, options);
+  return advance_to_end(sim, observers, folder, start, options);
 }
 
 base::Exit resume(const std::filesystem::path& folder, std::optional<double> until, const Options& options) {
-  std::vector<std::filesystem::path> files = list_checkpoints(folder);
+  const auto start = WallClock::now();
+  std::vector<std::filesystem::path> files = list_checkpoints(folder), damaged;
   if (files.empty())
     base::fail(base::Exit::input_output, "{} holds no checkpoint to resume (looked in {})", folder.string(),
                (folder / "checkpoints").string());
@@ -121,14 +116,23 @@ base::Exit resume(const std::filesystem::path& folder, std::optional<double> unt
     } catch (const base::Fault& fault) {
       if (fault.code() != base::Exit::input_output || files.size() == 1) throw;
       options.say(fmt::format("{}; trying the checkpoint before", fault.what()));
+      damaged.push_back(files.back());
       files.pop_back();
     }
   }
-  if (until) restored->sim.set_end(*until);
+  // Out of the way: what is newest in the folder must be something that can be resumed.
+  for (const std::filesystem::path& file : damaged) std::filesystem::rename(file, file.string() + ".damaged");
+  if (until) {
+    if (*until < restored->sim.time())
+      base::fail(base::Exit::command_line, "--until {} s lies before the checkpoint at t = {:.6g} s", *until,
+                 restored->sim.time());
+    restored->sim.set_end(*until);
+    io::write_atomically(folder / "case.resolved.toml", casefile::resolved_text(restored->sim.resolved()));
+  }
   options.say(fmt::format("resuming at t = {:.4g} s from {}", restored->sim.time(), files.back().string()));
   if (!restored->note.empty()) options.say("note: " + restored->note + "; results may differ in the last bits");
   Observers observers(folder, restored->sim, restored->progress);
-  return advance_to_end(restored->sim, observers, folder, options);
+  return advance_to_end(restored->sim, observers, folder, start, options);
 }
 
 }  // namespace livebed::run

@@ -25,6 +25,8 @@ void request_stop(int signal);
 base::Exit execute(const casefile::Case& given, const std::filesystem::path& folder, const Options& options);
 
 /// Continues the newest readable checkpoint of a run folder, bit for bit as if never stopped; until: a new end [s].
+/// Newer ones that cannot be read are told and renamed to *.damaged.  Throws Fault: input/output when there is none to
+/// read, command line when the new end lies before it.
 base::Exit resume(const std::filesystem::path& folder, std::optional<double> until, const Options& options);
 
 /// Signal that stopped the last run; 0 when none did.

@@ -74,12 +74,12 @@ void Observers::write_series(const Simulation& sim, bool bed_due) {
     series_.row(sample.row);
     ++progress_.series_rows;
     progress_.series_offset = series_.offset();
-    times_.push_back(sample.row[0]);
-    depths_.push_back(sample.row[2]);
+    times_.push_back(sample.time);
+    depths_.push_back(sample.depth_over_D);
     scour_depth_ = depths_.back();
-    progress_.theta_sum += (sample.row[0] - before) * sample.row[10];
-    progress_.theta_time += sample.row[0] - before;
-    progress_.largest_overlap = std::max(progress_.largest_overlap, sample.row[21]);
+    progress_.theta_sum += (sample.time - before) * sample.theta;
+    progress_.theta_time += sample.time - before;
+    progress_.largest_overlap = std::max(progress_.largest_overlap, sample.largest_overlap);
   }
   if (bed_due) write_bed(sim.time(), sample.line);
 }

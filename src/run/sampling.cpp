@@ -78,17 +78,20 @@ double Sampler::measured_theta(const Simulation& sim) const {
   const double to = pipe ? c.flow.pipe.x - 1.5 * c.flow.pipe.diameter : 0.9 * m.length();
   const int plane =
       static_cast<int>(std::lower_bound(m.y.begin(), m.y.end() - 1, original_.level - 1e-9 * m.height()) - m.y.begin());
+  const auto stress_at_bed = [&](int i) {
+    const double nut = 0.25 * (s.nut(i - 1, plane - 1) + s.nut(i, plane - 1) + s.nut(i - 1, plane) + s.nut(i, plane));
+    const double shear =
+        (s.u(i, plane) - s.u(i, plane - 1)) / m.dy_face(plane) + (s.v(i, plane) - s.v(i - 1, plane)) / m.dx_face(i);
+    const double u = 0.5 * (s.u(i, plane) + s.u(i, plane - 1)), v = 0.5 * (s.v(i, plane) + s.v(i - 1, plane));
+    double drag = 0;
+    for (int j = plane; j < m.ny; ++j) drag += (s.load.beta_u(i, j) * s.u(i, j) - s.load.force_u(i, j)) * m.dy(j);
+    return rho * (c.flow.viscosity + nut) * shear - rho * u * v + drag;
+  };
   double stress = 0, length = 0;
   for (int i = 1; i < m.nx; ++i) {
     if (m.x[i] < from || m.x[i] > to) continue;
     const double width = m.dx_face(i);
-    const double nut = 0.25 * (s.nut(i - 1, plane - 1) + s.nut(i, plane - 1) + s.nut(i - 1, plane) + s.nut(i, plane));
-    const double shear =
-        (s.u(i, plane) - s.u(i, plane - 1)) / m.dy_face(plane) + (s.v(i, plane) - s.v(i - 1, plane)) / width;
-    const double u = 0.5 * (s.u(i, plane) + s.u(i, plane - 1)), v = 0.5 * (s.v(i, plane) + s.v(i - 1, plane));
-    double drag = 0;
-    for (int j = plane; j < m.ny; ++j) drag += (s.load.beta_u(i, j) * s.u(i, j) - s.load.force_u(i, j)) * m.dy(j);
-    stress += width * (rho * (c.flow.viscosity + nut) * shear - rho * u * v + drag);
+    stress += width * (plane > 0 ? stress_at_bed(i) : rho * base::square(sim.flow().floor_shear_velocity(i)));
     length += width;
   }
   if (length == 0) return 0;
@@ -101,29 +104,33 @@ Sample Sampler::sample(const Simulation& sim) {
   const grains::State& g = sim.bed().state;
   const bool grains = g.count() > 0;
   Sample result;
+  Hole hole;
   if (grains) {
     solid_.sample(g.x, g.y, g.diameter);
     result.line = bed_line(solid_, original_.packed);
-    if (c.flow.pipe.present) result.hole = measure_hole(x_, result.line, original_.level, solid_.pipe());
+    if (c.flow.pipe.present) hole = measure_hole(x_, result.line, original_.level, solid_.pipe());
   }
-  const Hole& hole = result.hole;
   const bool pipe = c.flow.pipe.present;
   const double D = pipe ? c.flow.pipe.diameter : 1.0;
   const flow::StepReport& report = sim.last_report();
   const grains::ContactMeasures contacts = grains ? grains::measure_contacts(sim.bed()) : grains::ContactMeasures{};
   const base::Vec2 force = report.pipe_force + sim.grain_force_on_pipe();
   const base::Vec2 error = sim.coupler().ledger().error();
-  result.row = {sim.time(),
-                c.time_scale > 0 ? sim.time() / c.time_scale : 0.0,
-                hole.depth / D,
+  result.time = sim.time();
+  result.depth_over_D = hole.depth / D;
+  result.theta = measured_theta(sim);
+  result.largest_overlap = contacts.largest_overlap;
+  result.row = {result.time,
+                c.time_scale > 0 ? result.time / c.time_scale : 0.0,
+                result.depth_over_D,
                 hole.depth_under_pipe / D,
                 hole.width / D,
                 hole.mound_height / D,
-                pipe ? (hole.mound_x - c.flow.pipe.x) / D : hole.mound_x,
+                pipe && grains ? (hole.mound_x - c.flow.pipe.x) / D : 0.0,
                 grains ? grains::solids_flux(c.grains, g) : 0.0,
                 force.x,
                 force.y,
-                measured_theta(sim),
+                result.theta,
                 report.mass_residual,
                 sim.flow_momentum(),
                 grains ? grains::momentum(c.grains, g).x : 0.0,
@@ -134,7 +141,7 @@ Sample Sampler::sample(const Simulation& sim) {
                 grains ? grains::mean_speed(g) : 0.0,
                 grains ? grains::max_speed(g) : 0.0,
                 contacts.per_grain,
-                contacts.largest_overlap};
+                result.largest_overlap};
   return result;
 }
 

@@ -21,11 +21,14 @@ inline constexpr double packed_from = 0.25, packed_to = 0.75;
 /// Columns of series.csv, in order.
 const std::vector<std::string>& series_columns();
 
-/// What one sample knows beyond its row.
+/// What one look at the simulation tells.
 struct Sample {
-  Hole hole;
-  std::vector<double> line;  ///< bed line [m], one entry a sampling column
-  std::vector<double> row;   ///< of series.csv
+  double time = 0;             ///< [s]
+  double depth_over_D = 0;     ///< S/D [-]
+  double theta = 0;            ///< measured [-]
+  double largest_overlap = 0;  ///< of two grains over d [-]
+  std::vector<double> line;    ///< bed line [m], one entry a sampling column
+  std::vector<double> row;     ///< of series.csv
 };
 
 /// Takes samples of one run: holds the smoothing kernel and what the original bed was.
@@ -41,7 +44,8 @@ public:
 
   Sample sample(const Simulation& sim);
   /// Shields parameter of the flow's total shear stress at the original bed level, upstream of the pipe: viscous and
-  /// turbulent stress on that plane, momentum carried through it, and drag on the grains above it.
+  /// turbulent stress on that plane, momentum carried through it, and drag on the grains above it.  Without grains that
+  /// of the friction on the floor.
   double measured_theta(const Simulation& sim) const;
 
   const std::vector<double>& x() const { return x_; }  ///< of the bed line [m]

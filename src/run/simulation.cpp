@@ -1,5 +1,6 @@
 #include "run/simulation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -33,6 +34,22 @@ flow::Mesh mesh_of(const casefile::Case& c) { return flow::make_mesh(c.flow.mesh
 
 grains::Circle circle_of(const flow::PipeParams& pipe) { return {pipe.present, pipe.x, pipe.y, pipe.diameter}; }
 
+/// Where the flow was fastest before the step under way, as a sentence: what diverges can be seen coming there.  A
+/// number that is not finite counts as the fastest.
+std::string fastest_place(const flow::Mesh& m, const flow::State& s) {
+  double largest = -1;
+  int at_i = 0, at_j = 0;
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i) {
+      const double speed = std::hypot(s.u_old(i, j), s.v_old(i, j));
+      if (speed <= largest) continue;
+      largest = speed, at_i = i, at_j = j;
+      if (!std::isfinite(speed)) i = m.nx, j = m.ny;
+    }
+  return fmt::format("before this step the largest speed was {:.3g} m/s in cell ({},{}), x = {:.4g} m, y = {:.4g} m",
+                     largest, at_i, at_j, m.centre_x(at_i), m.centre_y(at_j));
+}
+
 }  // namespace
 
 Simulation::Start Simulation::prepare(const casefile::Case& given) {
@@ -63,6 +80,12 @@ Simulation::Simulation(const casefile::Case& resolved, grains::Bed bed)
   flow_.start();
 }
 
+void Simulation::set_end(double end) {
+  std::replace(case_.given.begin(), case_.given.end(), std::string("time.end_over_T"), std::string("time.end"));
+  case_.time.end = end;
+  case_.time.end_over_T = case_.time_scale > 0 ? end / case_.time_scale : 0.0;
+}
+
 double Simulation::time() const {
   return clock_.released ? static_cast<double>(clock_.grain_steps) * case_.grains.step
                          : flow_.state.time - case_.time.spin_up;
@@ -74,13 +97,9 @@ void Simulation::spin_up_step() {
     Stopwatch watch(wall_.exchange);
     coupler_.load_flow(bed_.state, flow_.state, dt, true);
   }
-  {
-    Stopwatch watch(wall_.flow);
-    report_ = flow_.advance(dt);
-  }
+  advance_flow(dt);
   last_step_ = dt;
   ++clock_.flow_steps;
-  check_finite();
 }
 
 void Simulation::release() { clock_.released = true; }
@@ -94,21 +113,13 @@ void Simulation::step() {
     Stopwatch watch(wall_.exchange);
     coupler_.load_flow(bed_.state, flow_.state, dt, false);
   }
-  {
-    Stopwatch watch(wall_.flow);
-    report_ = flow_.advance(dt);
-  }
-  check_finite();
+  advance_flow(dt);
   if (has_grains()) {
     {
       Stopwatch watch(wall_.exchange);
       coupler_.push_grains(flow_.state, bed_.state);
     }
-    bed_.pipe_impulse = {};
-    {
-      Stopwatch watch(wall_.grains);
-      grains::advance(bed_, substeps);
-    }
+    advance_grains(substeps);
     grain_force_ = (1.0 / (dt * case_.grains.diameter)) * bed_.pipe_impulse;
     Stopwatch watch(wall_.exchange);
     coupler_.collect(bed_.state, flow_.state, dt);
@@ -116,6 +127,31 @@ void Simulation::step() {
   last_step_ = dt;
   ++clock_.flow_steps;
   clock_.grain_steps += substeps;
+}
+
+void Simulation::advance_flow(double dt) {
+  Stopwatch watch(wall_.flow);
+  try {
+    report_ = flow_.advance(dt);
+    check_finite();
+  } catch (const base::Fault& fault) {
+    fail_here(fault);
+  }
+}
+
+void Simulation::advance_grains(int substeps) {
+  Stopwatch watch(wall_.grains);
+  bed_.pipe_impulse = {};
+  try {
+    grains::advance(bed_, substeps);
+  } catch (const base::Fault& fault) {
+    fail_here(fault);
+  }
+}
+
+void Simulation::fail_here(const base::Fault& fault) const {
+  base::fail(fault.code(), "t = {:.5g} s, flow step {}: {}; {}", time(), clock_.flow_steps, fault.what(),
+             fastest_place(flow_.mesh(), flow_.state));
 }
 
 void Simulation::check_finite() const {
@@ -128,8 +164,7 @@ void Simulation::check_finite() const {
   }
   if (std::isfinite(sum)) return;
   const std::string fault = flow_.find_fault();
-  base::fail(base::Exit::diverged, "t = {:.5g} s, flow step {}: {}", time(), clock_.flow_steps,
-             fault.empty() ? "the sum over all cells is not finite" : fault);
+  base::fail(base::Exit::diverged, "{}", fault.empty() ? "the sum over all cells is not finite" : fault);
 }
 
 double Simulation::flow_momentum() const {

@@ -1,9 +1,9 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "base/fault.hpp"
 #include "case/case.hpp"
 #include "coupling/exchange.hpp"
 #include "flow/advance.hpp"
@@ -48,8 +48,8 @@ public:
   /// (diverged) with place and time when a number is not finite.
   void step();
 
-  /// A new last time [s] for a run that goes on.
-  void set_end(double end) { case_.time.end = end; }
+  /// A new last time [s] for a run that goes on; from here on the case counts as given by time.end.
+  void set_end(double end);
 
   /// Time [s]: since the release, negative before.
   double time() const;
@@ -66,7 +66,7 @@ public:
 
   /// Force of the grains on the pipe per metre of it over the last step [N/m].
   base::Vec2 grain_force_on_pipe() const { return grain_force_; }
-  /// Momentum along x of the water and of the grains [N s], in the slab.
+  /// Momentum of the water along x [N s], in the slab.
   double flow_momentum() const;
   /// Solid volume fraction in the cells of the flow [-].
   const base::Field& solid_fraction();
@@ -78,7 +78,10 @@ public:
   }
 
 private:
+  void advance_flow(double dt);
+  void advance_grains(int substeps);
   void check_finite() const;
+  [[noreturn]] void fail_here(const base::Fault& fault) const;
   bool has_grains() const { return case_.grains.count > 0; }
 
   casefile::Case case_;

@@ -53,7 +53,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& sim, c
   j["scour_depth_over_D"] = last("S_over_D");
   j["depth_under_pipe_over_D"] = last("depth_under_pipe_over_D");
   j["S_eq_over_D"] = or_null(steady, [](double v) { return v; });
-  j["T_s"] = or_null(fit, [](const Approach& a) { return a.T; });
+  j["T_s"] = steady && fit ? nlohmann::json(fit->T) : nlohmann::json(nullptr);
   j["fit"] = or_null(fit, [](const Approach& a) {
     return nlohmann::json{
         {"S_eq_over_D", a.S_eq}, {"T_s", a.T}, {"error_S_eq", a.error_S_eq}, {"error_T_s", a.error_T}, {"rms", a.rms}};
