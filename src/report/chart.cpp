@@ -101,10 +101,6 @@ std::string svg(const Chart& chart) {
   std::string out = fmt::format(
       R"svg(<svg class="chart" viewBox="0 0 {} {:.0f}" width="{}" role="img" aria-label="{} against {}">)svg",
       chart.width, height + top + bottom, chart.width, escaped(chart.y.name), escaped(chart.x.name));
-  static int charts = 0;
-  const std::string clip = fmt::format("clip{}", charts++);
-  out += fmt::format(R"svg(<clipPath id="{}"><rect x="{}" y="{}" width="{}" height="{:.1f}"/></clipPath>)svg", clip,
-                     left, top, width, height);
   out += R"svg(<g class="axis">)svg";
   const Ticks tx = ticks(rx.from, rx.to, chart.width / 80);
   for (double t : tx.places)
@@ -124,7 +120,9 @@ std::string svg(const Chart& chart) {
   out += fmt::format(R"svg(<text transform="translate(14 {:.0f}) rotate(-90)" text-anchor="middle">{}</text></g>)svg",
                      top + height / 2, escaped(chart.y.name));
 
-  out += fmt::format(R"svg(<g clip-path="url(#{})">)svg", clip);
+  // An inner <svg> clips what leaves the frame.
+  out += fmt::format(R"svg(<svg x="{0}" y="{1}" width="{2}" height="{3:.1f}" viewBox="{0} {1} {2} {3:.1f}">)svg", left,
+                     top, width, height);
   for (const Curve& curve : chart.curves) {
     std::vector<std::pair<double, double>> points;
     for (std::size_t n = 0; n < curve.x.size(); ++n)
@@ -142,7 +140,7 @@ std::string svg(const Chart& chart) {
     out += fmt::format(R"svg(<path d="{}" fill="none" stroke="{}" stroke-width="1.8"{}/>)svg", path, curve.colour,
                        curve.dashed ? R"svg( stroke-dasharray="5 4")svg" : "");
   }
-  out += "</g></svg>";
+  out += "</svg></svg>";
 
   std::string legend;
   for (const Curve& curve : chart.curves)

@@ -30,6 +30,11 @@ TEST(chart, points_land_where_the_axes_say) {
   EXPECT_NE(text.find(R"(cx="174.0" cy="12.0")"), std::string::npos);
 }
 
+TEST(chart, the_same_chart_is_the_same_text) {
+  const Chart chart{{"x"}, {"y"}, {{"a", "red", {0, 1}, {0, 1}}}};
+  EXPECT_EQ(svg(chart), svg(chart));
+}
+
 TEST(chart, long_curves_are_thinned_without_losing_a_peak) {
   Curve curve{"long", "blue", {}, {}};
   for (int n = 0; n < 200000; ++n) {
