@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(meshes, PressureShapes,
                                            Shape{"thin", 2, 0.1, 0.005, 0.0005, 1, 0.03, true},
                                            Shape{"odd_halves", 1, 0.3, 0.0135, 0.01, 1, 0.07, true},
                                            Shape{"large", 1.5, 0.175, 0.0025, 0.001, 1, 0.05, true}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& shape) { return shape.param.name; });
 
 TEST(pressure, same_bits_for_any_number_of_threads) {
   MeshParams grid;
