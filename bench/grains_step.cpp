@@ -10,34 +10,23 @@ namespace {
 using namespace livebed;
 using namespace livebed::grains;
 
-/// A settled bed of 780 grains, packed once.
-const Bed& small_bed() {
+/// A settled bed of 1560 grains, packed once.
+const Bed& short_bed() {
   static const Bed bed = [] {
     Params p;
     p.stiffness = 5500;
     p.restitution = 0.3;
-    p.count = 780;
-    p.length = 0.063;
+    p.count = 1560;
+    p.length = 0.126;
     return pack(p).bed;
   }();
   return bed;
 }
 
-/// The small bed side by side until it holds `count` grains; its period makes the seams fit.
+/// The short bed side by side until it holds `count` grains, at rest again.
 Bed bed_of(int count) {
-  const Bed& tile = small_bed();
-  const int tiles = std::max(1, count / tile.params.count);
-  Params p = tile.params;
-  p.count = tiles * tile.params.count;
-  p.length *= tiles;
-  Bed bed = make_bed(p);
-  for (int i = 0; i < p.count; ++i) {
-    const int from = i % tile.params.count;
-    bed.state.x[i] = tile.state.x[from] + i / tile.params.count * tile.params.length;
-    bed.state.y[i] = tile.state.y[from];
-    bed.state.diameter[i] = tile.state.diameter[from];
-  }
-  advance(bed, 2000);  // friction comes back, lists and caches warm up
+  Bed bed = side_by_side(short_bed(), std::max(1, count / short_bed().params.count));
+  advance(bed, 2000);
   return bed;
 }
 

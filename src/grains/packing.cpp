@@ -93,6 +93,20 @@ Packing pack(const Params& given) {
   return result;
 }
 
+Bed side_by_side(const Bed& tile, int tiles) {
+  const int n = tile.params.count;
+  Params p = tile.params;
+  p.count *= tiles;
+  p.length *= tiles;
+  Bed bed = make_bed(p);
+  for (int i = 0; i < p.count; ++i) {
+    bed.state.x[i] = tile.state.x[i % n] + i / n * tile.params.length;
+    bed.state.y[i] = tile.state.y[i % n];
+    bed.state.diameter[i] = tile.state.diameter[i % n];
+  }
+  return bed;
+}
+
 std::vector<SettleRow> place_pipe(Bed& bed, const Circle& target, double speed) {
   const Params& p = bed.params;
   const double radius = 0.5 * target.diameter;

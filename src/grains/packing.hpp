@@ -32,6 +32,10 @@ std::vector<SettleRow> settle(Bed& bed);
 /// lattice + settle.
 Packing pack(const Params& given);
 
+/// Copies of a bed side by side, a long bed in the time a short one takes to pack.  The period makes the seams fit.
+/// What the contacts remember is not copied: friction builds up anew within a few steps, settle if that matters.
+Bed side_by_side(const Bed& tile, int tiles);
+
 /// Brings the pipe to its place.  Grains bulge above the nominal bed by half a diameter or more and an embedded pipe
 /// meets many of them, so it starts above them and is lowered at `speed` [m/s], slow enough that they make way without
 /// knocks, in a thick fluid; then the bed settles again.  Returns the convergence of that.  Throws as settle does, and

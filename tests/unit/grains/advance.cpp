@@ -29,7 +29,7 @@ Bed bed_in_motion() {
   place_pipe(bed, {.present = true, .x = 0.02, .y = 0.03, .diameter = 0.015}, 0.2);
   for (int i = 0; i < bed.state.count(); ++i) {
     bed.state.fluid.beta[i] = 2e-4;
-    bed.state.fluid.u[i] = 30 * bed.state.y[i];
+    bed.state.fluid.u[i] = 60 * bed.state.y[i];
     bed.state.fluid.v[i] = 0.1 * std::sin(100 * bed.state.x[i]);
     bed.state.fluid.fx[i] = 1e-6;
   }
@@ -217,6 +217,18 @@ TEST(packing, a_bed_without_time_to_settle_says_so) {
     EXPECT_EQ(fault.code(), base::Exit::stopped_by_limit);
     EXPECT_NE(std::string(fault.what()).find("bed.settle_time = 0.02 s"), std::string::npos) << fault.what();
   }
+}
+
+TEST(packing, beds_side_by_side_fit_at_the_seams) {
+  const Bed tile = pack(small_bed()).bed;
+  Bed three = side_by_side(tile, 3);
+  EXPECT_EQ(three.params.count, 3 * tile.params.count);
+  check_count(three);
+  advance(three, 0);
+  const ContactMeasures one = measure_contacts(tile), all = measure_contacts(three);
+  EXPECT_NEAR(all.per_grain, one.per_grain, 1e-12);
+  EXPECT_NEAR(all.largest_overlap, one.largest_overlap, 1e-9);
+  EXPECT_NEAR(bed_height(three.state), bed_height(tile.state), 1e-12);
 }
 
 TEST(packing, a_pipe_through_the_floor_is_refused) {
