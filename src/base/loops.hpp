@@ -52,6 +52,15 @@ inline double vector_sum(int begin, int end, Term&& term) {
   return sum;
 }
 
+/// The same in single precision: for sums of which six digits are enough.
+template <class Term>
+inline double vector_sum_f(int begin, int end, Term&& term) {
+  float sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (int k = begin; k < end; ++k) sum += term(k);
+  return static_cast<double>(sum);
+}
+
 /// Largest term(k) with vector instructions, at least `lowest`.
 template <class Term>
 inline double vector_largest(int begin, int end, double lowest, Term&& term) {

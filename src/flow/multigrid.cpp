@@ -1,6 +1,7 @@
 #include "flow/multigrid.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/loops.hpp"
 
@@ -10,57 +11,66 @@ using base::vector_loop;
 
 namespace {
 
-constexpr int block_columns = 64;  // columns a thread takes at once; four vectors of floats
-constexpr int cells_worth_threads = 20000;
+constexpr int block_columns = 256;  // at most, so that what a line solve touches stays in the second cache
+constexpr int cells_worth_threads = 8000;
 constexpr float pivot_least = 1e-5f;  // of the diagonal: below it a line floats free (pure Neumann) and keeps 0
 
-/// Calls pass(m0, m1) over blocks of columns, on all threads when there is work for them.
+/// Calls pass(m0, m1) over blocks of columns, on all threads when there is work for them.  Columns do not depend on one
+/// another inside a pass, so the blocks do not change a bit.
 template <class Pass>
 void over_blocks(int nm, int ny, Pass&& pass) {
-  if (nm * ny < cells_worth_threads) return pass(0, nm);
-  base::for_each_item(0, (nm + block_columns - 1) / block_columns,
-                      [&](int k) { pass(k * block_columns, std::min(nm, (k + 1) * block_columns)); });
+  const int threads = nm * ny < cells_worth_threads ? 1 : base::threads();
+  const int rounds = (nm + block_columns * threads - 1) / (block_columns * threads);
+  const int blocks = std::max(1, rounds * threads);
+  const int width = ((nm + blocks - 1) / blocks + 15) / 16 * 16;
+  const auto one = [&](int k) {
+    const int m0 = std::min(nm, k * width), m1 = std::min(nm, m0 + width);
+    if (m0 < m1) pass(m0, m1);
+  };
+  if (threads == 1)
+    for (int k = 0; k < blocks; ++k) one(k);
+  else
+    base::for_each_item(0, blocks, one);
 }
 
-/// Solves all vertical lines of one colour: x = T^-1 (b + west_coupling x_west + east_coupling x_east).  `other` holds
-/// the columns of the other colour; shift says where they sit: F column m lies between C columns m-1 and m, C column m
-/// between F columns m and m+1.  A null `other` stands for zero.
-void solve_lines(const Columns<float>& pivot, const Columns<float>& slope, const Columns<float>& west,
-                 const Columns<float>& east, int coupling_shift, const Columns<float>& b, const Columns<float>* other,
-                 int shift, Columns<float>& x) {
-  const int ny = x.ny;
-  over_blocks(x.nm, ny, [&](int m0, int m1) {
-    for (int j = 0; j < ny; ++j) {
-      float* xj = x.row(j);
-      const float* bj = b.row(j);
-      const float* below = x.row(std::max(j - 1, 0));
-      const float* sj = slope.row(std::max(j - 1, 0));
-      const float up = j > 0 ? 1.f : 0.f;
-      if (other) {
-        const float* w = west.row(j);
-        const float* e = east.row(j) + coupling_shift;
-        const float* oj = other->row(j) + shift;
-        if (j == 0)
-          vector_loop(m0, m1, [&](int m) { xj[m] = bj[m] + w[m] * oj[m] + e[m] * oj[m + 1]; });
-        else
-          vector_loop(m0, m1, [&](int m) { xj[m] = bj[m] + w[m] * oj[m] + e[m] * oj[m + 1] + sj[m] * below[m]; });
-      } else {
-        vector_loop(m0, m1, [&](int m) { xj[m] = bj[m] + up * sj[m] * below[m]; });
+/// Solves the vertical lines of one colour, x = T^-1 (b + west x_west + east x_east).  Column m of this colour lies
+/// between columns m + shift and m + shift + 1 of the other; null b or other stand for zero.
+struct LineSolve {
+  const Columns &pivot, &slope, &west, &east;
+  int east_shift, shift;
+
+  void operator()(const Columns* b, const Columns* other, Columns& x) const {
+    const int ny = x.ny;
+    over_blocks(x.nm, ny, [&](int m0, int m1) {
+      for (int j = 0; j < ny; ++j) {
+        float* xj = x.row(j);
+        if (other) {
+          const float *w = west.row(j), *e = east.row(j) + east_shift, *o = other->row(j) + shift;
+          if (b) {
+            const float* bj = b->row(j);
+            vector_loop(m0, m1, [&](int m) { xj[m] = bj[m] + w[m] * o[m] + e[m] * o[m + 1]; });
+          } else {
+            vector_loop(m0, m1, [&](int m) { xj[m] = w[m] * o[m] + e[m] * o[m + 1]; });
+          }
+        } else {
+          const float* bj = b->row(j);
+          vector_loop(m0, m1, [&](int m) { xj[m] = bj[m]; });
+        }
+        if (j == 0) continue;
+        const float *below = x.row(j - 1), *s = slope.row(j - 1);
+        vector_loop(m0, m1, [&](int m) { xj[m] += s[m] * below[m]; });
       }
-    }
-    for (int j = ny - 1; j >= 0; --j) {
-      float* xj = x.row(j);
-      const float* pj = pivot.row(j);
-      const float* sj = slope.row(j);
-      if (j == ny - 1) {
-        vector_loop(m0, m1, [&](int m) { xj[m] *= pj[m]; });
-      } else {
-        const float* above = x.row(j + 1);
-        vector_loop(m0, m1, [&](int m) { xj[m] = pj[m] * xj[m] + sj[m] * above[m]; });
+      float* top = x.row(ny - 1);
+      const float* top_pivot = pivot.row(ny - 1);
+      vector_loop(m0, m1, [&](int m) { top[m] *= top_pivot[m]; });
+      for (int j = ny - 2; j >= 0; --j) {
+        float* xj = x.row(j);
+        const float *p = pivot.row(j), *s = slope.row(j), *above = x.row(j + 1);
+        vector_loop(m0, m1, [&](int m) { xj[m] = p[m] * xj[m] + s[m] * above[m]; });
       }
-    }
-  });
-}
+    });
+  }
+};
 
 }  // namespace
 
@@ -69,85 +79,85 @@ Multigrid::Multigrid(int nx, int ny) {
     Level level;
     level.nx = n;
     level.ny = ny;
-    level.a = Stencil<float>(n, ny);
-    level.pivot = level.slope = level.b = level.x = Split<float>(n, ny);
+    level.a = Stencil(n, ny);
+    level.pivot = level.slope = level.b = level.x = Split(n, ny);
     levels_.push_back(std::move(level));
   }
+  r_ = d_ = q_ = sz_ = sum_ = Columns(nx / 2, ny);
+  right_F_ = Columns((nx + 1) / 2, ny);
 }
 
-void Multigrid::factor(Level& level) {
-  const auto one = [&](Columns<float>& pivot, Columns<float>& slope, const Columns<float>& north,
-                       const Columns<float>& extra, auto&& sideways) {
-    over_blocks(pivot.nm, level.ny, [&](int m0, int m1) {
-      for (int j = 0; j < level.ny; ++j) {
-        for (int m = m0; m < m1; ++m) {
-          const float south = j > 0 ? north.row(j - 1)[m] : 0.f;
-          const float up = north.row(j)[m];
-          const float diagonal = sideways(j, m) + south + up + extra.row(j)[m];
-          const float d = diagonal - (j > 0 ? south * slope.row(j - 1)[m] : 0.f);
-          pivot.row(j)[m] = diagonal == 0.f ? 1.f : (d > pivot_least * diagonal ? 1.f / d : 0.f);
-          slope.row(j)[m] = up * pivot.row(j)[m];
-        }
+void Multigrid::solve_F(Level& l, const Columns* b, bool coupled) {
+  LineSolve{l.pivot.F, l.slope.F, l.a.west, l.a.east, 0, -1}(b, coupled ? &l.x.C : nullptr, l.x.F);
+}
+
+void Multigrid::solve_C(Level& l, bool coupled) {
+  // C column m: its western coupling is the eastern one of F column m, its eastern the western one of F column m+1.
+  LineSolve{l.pivot.C, l.slope.C, l.a.east, l.a.west, 1, 0}(&l.b.C, coupled ? &l.x.F : nullptr, l.x.C);
+}
+
+void Multigrid::factor(Level& l) {
+  const auto one = [&](Columns& pivot, Columns& slope, const Columns& north, const Columns& extra, const Columns& west,
+                       const Columns& east, int east_shift) {
+    over_blocks(pivot.nm, l.ny, [&](int m0, int m1) {
+      for (int j = 0; j < l.ny; ++j) {
+        const int below = std::max(j - 1, 0);
+        const float has_south = j > 0 ? 1.f : 0.f;
+        const float *south = north.row(below), *slope_below = slope.row(below), *up = north.row(j), *ex = extra.row(j);
+        const float *w = west.row(j), *e = east.row(j) + east_shift;
+        float *p = pivot.row(j), *s = slope.row(j);
+        vector_loop(m0, m1, [&](int m) {
+          const float from_south = has_south * south[m];
+          const float diagonal = w[m] + e[m] + from_south + up[m] + ex[m];
+          const float d = diagonal - from_south * slope_below[m];
+          const float floating = d > pivot_least * diagonal ? 1.f / d : 0.f;
+          p[m] = diagonal == 0.f ? 1.f : floating;
+          s[m] = up[m] * p[m];
+        });
       }
     });
   };
-  const Stencil<float>& a = level.a;
-  one(level.pivot.F, level.slope.F, a.north.F, a.extra.F,
-      [&](int j, int m) { return a.west.row(j)[m] + a.east.row(j)[m]; });
-  one(level.pivot.C, level.slope.C, a.north.C, a.extra.C,
-      [&](int j, int m) { return a.east.row(j)[m] + a.west.row(j)[m + 1]; });
+  one(l.pivot.F, l.slope.F, l.a.north.F, l.a.extra.F, l.a.west, l.a.east, 0);
+  one(l.pivot.C, l.slope.C, l.a.north.C, l.a.extra.C, l.a.east, l.a.west, 1);
 }
 
 void Multigrid::coarsen(const Level& fine, Level& coarse) {
   // Eliminating an F column that has no vertical coupling leaves its two C neighbours joined in series; what it couples
-  // vertically is shared between them in the proportion of its sideways couplings.
-  const Stencil<float>& a = fine.a;
-  const int nm = fine.a.west.nm, nc = coarse.nx, ny = fine.ny;
-  const auto share = [&](int j, int m, float side) {
-    const float sum = a.west.row(j)[m] + a.east.row(j)[m] + a.extra.F.row(j)[m];
-    return sum > 0 ? side / sum : 0.f;
-  };
-  const auto colour = [&](Split<float>& s, int k) -> Columns<float>& { return k % 2 ? s.C : s.F; };
-  for (int j = 0; j < ny; ++j) {
-    for (int k = 0; k < nc; ++k) {
-      const bool last = k + 1 >= nm;
-      const auto from_west = [&](int row) { return share(row, k, a.east.row(row)[k]); };
-      const auto from_east = [&](int row) { return last ? 0.f : share(row, k + 1, a.west.row(row)[k + 1]); };
-      float north = 0;
-      if (j + 1 < ny) {
-        north = a.north.C.row(j)[k] + a.north.F.row(j)[k] * std::min(from_west(j), from_west(j + 1));
-        if (!last) north += a.north.F.row(j)[k + 1] * std::min(from_east(j), from_east(j + 1));
-      }
-      float extra = a.extra.C.row(j)[k] + a.extra.F.row(j)[k] * from_west(j);
-      if (!last) extra += a.extra.F.row(j)[k + 1] * from_east(j);
-      colour(coarse.a.north, k).row(j)[k / 2] = north;
-      colour(coarse.a.extra, k).row(j)[k / 2] = extra;
-      // Coupling of coarse columns k-1 and k through F column k: the eastern one of column k-1, the western one of k.
-      const float series = k > 0 ? a.west.row(j)[k] * from_west(j) : 0.f;
-      if (k % 2 == 0)
-        coarse.a.west.row(j)[k / 2] = series;
-      else
-        coarse.a.east.row(j)[k / 2] = series;
+  // vertically is shared between them in the proportion of its sideways couplings.  Coarse column k lies between F
+  // columns k and k+1 (the last may be missing: its coefficients read as 0 from the padding).
+  const Stencil& a = fine.a;
+  const int nc = coarse.nx, ny = fine.ny;
+  base::for_each_item(0, ny, [&](int j) {
+    const int above = std::min(j + 1, ny - 1);
+    const float inside = j + 1 < ny ? 1.f : 0.f;
+    const float *w = a.west.row(j), *e = a.east.row(j), *x = a.extra.F.row(j);
+    const float *wa = a.west.row(above), *ea = a.east.row(above), *xa = a.extra.F.row(above);
+    const float *nF = a.north.F.row(j), *nC = a.north.C.row(j), *xC = a.extra.C.row(j);
+    const auto over = [](float side, float west, float east, float extra) {
+      const float sum = west + east + extra;
+      return sum > 0.f ? side / sum : 0.f;
+    };
+    for (int parity = 0; parity < 2; ++parity) {
+      float *north = coarse.a.north.colour(parity).row(j), *extra = coarse.a.extra.colour(parity).row(j);
+      float* series = parity == 0 ? coarse.a.west.row(j) : coarse.a.east.row(j);
+      vector_loop(0, (nc - parity + 1) / 2, [&](int m) {
+        const int k = 2 * m + parity;
+        const float from_west = over(e[k], w[k], e[k], x[k]), from_east = over(w[k + 1], w[k + 1], e[k + 1], x[k + 1]);
+        const float west_above = over(ea[k], wa[k], ea[k], xa[k]),
+                    east_above = over(wa[k + 1], wa[k + 1], ea[k + 1], xa[k + 1]);
+        north[m] =
+            inside * (nC[k] + nF[k] * std::min(from_west, west_above) + nF[k + 1] * std::min(from_east, east_above));
+        extra[m] = xC[k] + x[k] * from_west + x[k + 1] * from_east;
+        // Coarse columns k-1 and k are joined through F column k: the western coupling of k if k is even, the eastern
+        // one of k-1 if k is odd.
+        series[m] = w[k] * from_west;
+      });
     }
-    if (nc % 2) coarse.a.east.row(j)[nc / 2] = 0;
-  }
+    if (nc % 2) coarse.a.east.row(j)[nc / 2] = 0.f;
+  });
 }
 
-void Multigrid::set(const Stencil<double>& finest) {
-  const auto narrow = [](const Columns<double>& from, Columns<float>& to) {
-    for (int j = 0; j < from.ny; ++j) {
-      const double* f = from.row(j);
-      float* t = to.row(j);
-      vector_loop(0, from.nm, [&](int m) { t[m] = static_cast<float>(f[m]); });
-    }
-  };
-  Stencil<float>& a = levels_[0].a;
-  narrow(finest.west, a.west);
-  narrow(finest.east, a.east);
-  narrow(finest.north.F, a.north.F);
-  narrow(finest.north.C, a.north.C);
-  narrow(finest.extra.F, a.extra.F);
-  narrow(finest.extra.C, a.extra.C);
+void Multigrid::build() {
   factor(levels_[0]);
   for (std::size_t k = 1; k < levels_.size(); ++k) {
     coarsen(levels_[k - 1], levels_[k]);
@@ -155,64 +165,105 @@ void Multigrid::set(const Stencil<double>& finest) {
   }
 }
 
-void Multigrid::cycle(std::size_t depth) {
-  Level& l = levels_[depth];
-  const Stencil<float>& a = l.a;
-  const auto solve_F = [&](bool coupled) {
-    solve_lines(l.pivot.F, l.slope.F, a.west, a.east, 0, l.b.F, coupled ? &l.x.C : nullptr, -1, l.x.F);
-  };
-  const auto solve_C = [&](bool coupled) {
-    // C column m: its western coupling is the eastern one of F column m, its eastern the western one of F column m+1.
-    solve_lines(l.pivot.C, l.slope.C, a.east, a.west, 1, l.b.C, coupled ? &l.x.F : nullptr, 0, l.x.C);
-  };
-  if (l.nx == 1) return solve_F(false);
-  solve_C(false);
-  solve_F(true);
-  // After these two passes F rows are exact and the residual of C rows is what the F columns have just brought.
-  Level& coarse = levels_[depth + 1];
-  over_blocks(coarse.b.F.nm, l.ny, [&](int m0, int m1) {
-    for (int j = 0; j < l.ny; ++j) {
-      const float* w = a.east.row(j);
-      const float* e = a.west.row(j) + 1;
-      const float* xF = l.x.F.row(j);
-      float* even = coarse.b.F.row(j);
-      float* odd = coarse.b.C.row(j);
-      const int nodd = std::min(m1, coarse.b.C.nm);
-      for (int m = m0; m < m1; ++m) even[m] = w[2 * m] * xF[2 * m] + e[2 * m] * xF[2 * m + 1];
-      for (int m = m0; m < nodd; ++m) odd[m] = w[2 * m + 1] * xF[2 * m + 1] + e[2 * m + 1] * xF[2 * m + 2];
+void Multigrid::restrict_from(const Level& fine, Level& coarse) {
+  // After a C and an F solve, F rows are exact and the residual of C rows is what the F columns have just brought.
+  over_blocks(coarse.b.F.nm, fine.ny, [&](int m0, int m1) {
+    for (int j = 0; j < fine.ny; ++j) {
+      const float *w = fine.a.east.row(j), *e = fine.a.west.row(j) + 1, *x = fine.x.F.row(j);
+      float *even = coarse.b.F.row(j), *odd = coarse.b.C.row(j);
+      vector_loop(m0, m1, [&](int m) { even[m] = w[2 * m] * x[2 * m] + e[2 * m] * x[2 * m + 1]; });
+      vector_loop(m0, std::min(m1, coarse.b.C.nm),
+                  [&](int m) { odd[m] = w[2 * m + 1] * x[2 * m + 1] + e[2 * m + 1] * x[2 * m + 2]; });
     }
   });
-  cycle(depth + 1);
-  over_blocks(coarse.x.F.nm, l.ny, [&](int m0, int m1) {
-    for (int j = 0; j < l.ny; ++j) {
-      float* xC = l.x.C.row(j);
-      const float* even = coarse.x.F.row(j);
-      const float* odd = coarse.x.C.row(j);
-      const int nodd = std::min(m1, coarse.x.C.nm);
-      for (int m = m0; m < m1; ++m) xC[2 * m] += even[m];
-      for (int m = m0; m < nodd; ++m) xC[2 * m + 1] += odd[m];
-    }
-  });
-  solve_F(true);
-  solve_C(true);
 }
 
-void Multigrid::apply(const Split<double>& r, Split<double>& z) {
+void Multigrid::prolong_to(Level& fine, const Level& coarse) {
+  over_blocks(coarse.x.F.nm, fine.ny, [&](int m0, int m1) {
+    for (int j = 0; j < fine.ny; ++j) {
+      float* x = fine.x.C.row(j);
+      const float *even = coarse.x.F.row(j), *odd = coarse.x.C.row(j);
+      vector_loop(m0, m1, [&](int m) { x[2 * m] += even[m]; });
+      vector_loop(m0, std::min(m1, coarse.x.C.nm), [&](int m) { x[2 * m + 1] += odd[m]; });
+    }
+  });
+}
+
+void Multigrid::cycle(std::size_t depth) {
+  Level& l = levels_[depth];
+  // On the finest level the F columns are eliminated: their right-hand side is zero.
+  const Columns* b = depth == 0 ? nullptr : &l.b.F;
+  if (l.nx == 1) return solve_F(l, &l.b.F, false);
+  solve_C(l, false);
+  solve_F(l, b, true);
+  restrict_from(l, levels_[depth + 1]);
+  cycle(depth + 1);
+  prolong_to(l, levels_[depth + 1]);
+  solve_F(l, b, true);
+  solve_C(l, true);
+}
+
+int Multigrid::solve(double factor, int most) {
   Level& l = levels_[0];
-  const auto copy = [&](const auto& from, auto& to) {
-    over_blocks(from.nm, l.ny, [&](int m0, int m1) {
-      for (int j = 0; j < l.ny; ++j) {
-        const auto* f = from.row(j);
-        auto* t = to.row(j);
-        vector_loop(m0, m1, [&](int m) { t[m] = static_cast<std::decay_t<decltype(t[m])>>(f[m]); });
-      }
-    });
+  const int n = l.x.C.nm;
+  // What the F columns bring to the C columns: east_m x_m + west_(m+1) x_(m+1).
+  struct Brought {
+    const float *w, *e, *x;
+    float operator()(int m) const { return w[m] * x[m] + e[m] * x[m + 1]; }
   };
-  copy(r.F, l.b.F);
-  copy(r.C, l.b.C);
-  cycle(0);
-  copy(l.x.F, z.F);
-  copy(l.x.C, z.C);
+  const auto brought = [&l](int j) { return Brought{l.a.east.row(j), l.a.west.row(j) + 1, l.x.F.row(j)}; };
+  // Sum over rows of what a row returns; rows in order, so the bits do not depend on threads.
+  const auto sum_rows = [&](auto&& row) { return base::ordered_sum(0, l.ny, partial_, row); };
+
+  std::swap(right_F_, l.b.F);
+  solve_F(l, &right_F_, false);
+  const double start = std::sqrt(sum_rows([&](int j) {
+    float *r = r_.row(j), *s = sum_.row(j), *d = d_.row(j), *q = q_.row(j);
+    const float* b = l.b.C.row(j);
+    const Brought from_F = brought(j);
+    vector_loop(0, n, [&](int m) { r[m] = b[m] + from_F(m), s[m] = d[m] = q[m] = 0.f; });
+    return base::vector_sum_f(0, n, [&](int m) { return r[m] * r[m]; });
+  }));
+
+  int iterations = 0;
+  double residual = start, rz_before = 1;
+  while (residual > factor * start && iterations < most) {
+    std::swap(l.b.C, r_);
+    cycle(0);
+    std::swap(l.b.C, r_);
+    // The last C solve made T z = r + (what F brought); with F solved once more for z itself, S z = r + before - after.
+    const double rz = sum_rows([&](int j) {
+      const float *r = r_.row(j), *z = l.x.C.row(j);
+      float* sz = sz_.row(j);
+      const Brought from_F = brought(j);
+      vector_loop(0, n, [&](int m) { sz[m] = r[m] + from_F(m); });
+      return base::vector_sum_f(0, n, [&](int m) { return r[m] * z[m]; });
+    });
+    solve_F(l, nullptr, true);
+    const auto beta = static_cast<float>(iterations == 0 ? 0.0 : rz / rz_before);
+    const double dq = sum_rows([&](int j) {
+      const float *z = l.x.C.row(j), *sz = sz_.row(j);
+      float *d = d_.row(j), *q = q_.row(j);
+      const Brought from_F = brought(j);
+      vector_loop(0, n, [&](int m) { d[m] = z[m] + beta * d[m], q[m] = sz[m] - from_F(m) + beta * q[m]; });
+      return base::vector_sum_f(0, n, [&](int m) { return d[m] * q[m]; });
+    });
+    if (!(dq > 0)) break;  // single precision has nothing left to give; the caller looks at the true residual
+    const auto step = static_cast<float>(rz / dq);
+    residual = std::sqrt(sum_rows([&](int j) {
+      const float *d = d_.row(j), *q = q_.row(j);
+      float *s = sum_.row(j), *r = r_.row(j);
+      vector_loop(0, n, [&](int m) { s[m] += step * d[m], r[m] -= step * q[m]; });
+      return base::vector_sum_f(0, n, [&](int m) { return r[m] * r[m]; });
+    }));
+    rz_before = rz;
+    ++iterations;
+    if (!std::isfinite(residual)) break;
+  }
+  std::swap(l.x.C, sum_);
+  solve_F(l, &right_F_, true);
+  std::swap(right_F_, l.b.F);
+  return iterations;
 }
 
 }  // namespace livebed::flow

@@ -13,8 +13,9 @@ struct SolveReport {
   double relative() const { return before > 0 ? after / before : 0; }
 };
 
-/// Solves  sum over faces c_f (p_cell - p_neighbour) + c_boundary p_cell = b  by conjugate gradients with one multigrid
-/// cycle a step as preconditioner.  Cells without any open face keep 0.  Without a boundary coefficient the pressure
+/// Solves  sum over faces c_f (p_cell - p_neighbour) + c_boundary p_cell = b.  Residuals are in double precision;
+/// corrections come from conjugate gradients with multigrid in single precision, repeated until the residual is small
+/// enough (iterative refinement).  Cells without any open face keep 0.  Without a boundary coefficient the pressure
 /// floats: b must then sum to 0 (its mean is taken out) and the solution has mean 0.
 class PressureSolver {
 public:
@@ -30,17 +31,13 @@ public:
   SolveReport solve(base::Field& p, const base::Field& b, double tolerance, int most);
 
 private:
-  void apply_operator(const Split<double>& p, Split<double>& q) const;
-  double dot(const Split<double>& a, const Split<double>& b);
-  /// Takes out the mean over the fluid cells when the pressure floats.
-  void remove_mean(Split<double>& a);
+  double residual(const base::Field& p, const base::Field& b);  ///< r <- b - A p; its norm
+  void remove_mean(base::Field& a);
 
   int nx_ = 0, ny_ = 0;
   bool floating_ = false;
   double fluid_cells_ = 0;
-  Stencil<double> a_;
-  Split<double> diagonal_, open_;
-  Split<double> x_, r_, z_, d_, q_;
+  base::Field c_x_, c_y_, c_boundary_, r_;
   Multigrid multigrid_;
   std::vector<double> partial_;
 };
