@@ -133,9 +133,12 @@ void add_flow(std::vector<Row>& s) {
   s.push_back(real("flow.density", "kg/m3", flow(&F::density)).above(0).says("rho of the water"));
   s.push_back(real("flow.viscosity", "m2/s", flow(&F::viscosity)).above(0).says("kinematic viscosity of the water"));
   s.push_back(word<flow::Closure>("flow.closure", flow(&F::closure),
-                                  {{"k_epsilon", flow::Closure::k_epsilon}, {"laminar", flow::Closure::laminar}})
-                  .says("turbulence model")
-                  .from("Eq. 4-7, Table 1"));
+                                  {{"k_epsilon", flow::Closure::k_epsilon},
+                                   {"k_epsilon_realizable", flow::Closure::k_epsilon_realizable},
+                                   {"k_omega_sst", flow::Closure::k_omega_sst},
+                                   {"laminar", flow::Closure::laminar}})
+                  .says("turbulence model: the standard one; with Durbin's bound on its time scale; Menter's SST; none")
+                  .from("Eq. 4-7, Table 1: k_epsilon"));
   s.push_back(word<flow::Convection>("flow.convection", flow(&F::convection),
                                      {{"hybrid", flow::Convection::hybrid}, {"bounded", flow::Convection::bounded}})
                   .says("hybrid: central below a cell Peclet number of 2, upwind above; bounded: second order, limited")

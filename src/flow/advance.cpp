@@ -6,7 +6,7 @@
 #include "base/loops.hpp"
 #include "flow/constants.hpp"
 #include "flow/pipe.hpp"
-#include "flow/turbulence.hpp"
+#include "flow/transport.hpp"
 
 namespace livebed::flow {
 
@@ -22,6 +22,7 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
       at_v_(Staggering::south_faces(mesh)),
       at_c_(Staggering::centres(mesh)),
       work_(mesh),
+      turbulence_(mesh, boundary, params),
       pressure_(mesh.nx, mesh.ny) {
   const Field zero(mesh.nx, mesh.ny);
   State& s = state;
@@ -44,10 +45,10 @@ void Solver::start() {
     if (params_.closure == Closure::laminar || !boundary_.inlet) continue;
     for (int i = 0; i < mesh_.nx; ++i) s.k(i, j) = boundary_.inlet_k[j], s.epsilon(i, j) = boundary_.inlet_epsilon[j];
   }
-  if (params_.closure != Closure::laminar) update_eddy_viscosity(mesh_, params_, s);
   fill_velocity_ghosts(mesh_, boundary_, s.u, s.v);
   double residual = 0;
   project(1.0, residual);
+  if (params_.closure != Closure::laminar) turbulence_.start(mesh_, boundary_, params_, s);
   s.p.fill(0.0);  // of a start by impulse: it means nothing for the steps to come
   s.u_old = s.u;
   s.v_old = s.v;
@@ -146,7 +147,8 @@ StepReport Solver::advance(double dt) {
   predict_velocity(mesh_, boundary_, params_, at_u_, at_v_, dt, state, work_);
   report.pressure = project(dt, report.mass_residual);
   complete_rates(at_u_, at_v_, dt, state);
-  if (params_.closure == Closure::k_epsilon) advance_turbulence(mesh_, boundary_, params_, at_c_, dt, state, work_);
+  if (params_.closure != Closure::laminar)
+    advance_turbulence(mesh_, boundary_, params_, at_c_, dt, turbulence_, state, work_);
   state.step = dt;
   state.time += dt;
   report.pipe_force = pipe_force();

@@ -7,6 +7,7 @@
 #include "flow/params.hpp"
 #include "flow/pressure.hpp"
 #include "flow/state.hpp"
+#include "flow/turbulence.hpp"
 
 namespace livebed::flow {
 
@@ -63,6 +64,7 @@ private:
   Boundary boundary_;
   Staggering at_u_, at_v_, at_c_;
   Workspace work_;
+  Turbulence turbulence_;
   PressureSolver pressure_;
   bool coefficients_set_ = false;
   mutable std::vector<double> partial_;

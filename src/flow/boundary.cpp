@@ -34,6 +34,27 @@ double wall_friction(Wall wall, double speed, double y, double ks, double nu) {
   return 0;
 }
 
+double spalding_friction(double speed, double y, double nu) {
+  const double reynolds = speed * y / nu;  // u+ y+
+  if (reynolds < 1e-6) return nu / y;
+  // y+ = u+ + (exp(a) - 1 - a - a^2/2 - a^3/6)/E, a = kappa u+.  Newton from above: the function is convex.
+  double u = std::min(std::sqrt(reynolds), std::log(1.0 + smooth_E * reynolds) / kappa);
+  for (int n = 0; n < 20; ++n) {
+    const double a = kappa * u, growth = std::exp(a);
+    const double y_plus = u + (growth - 1.0 - a * (1.0 + a * (0.5 + a / 6.0))) / smooth_E;
+    const double slope = 1.0 + kappa * (growth - 1.0 - a * (1.0 + 0.5 * a)) / smooth_E;
+    const double change = (u * y_plus - reynolds) / (y_plus + u * slope);
+    u -= change;
+    if (std::abs(change) < 1e-12 * u) break;
+  }
+  return speed / square(u);
+}
+
+double wall_friction(Closure closure, Wall wall, double speed, double y, double ks, double nu) {
+  if (closure == Closure::k_omega_sst && wall == Wall::smooth) return spalding_friction(speed, y, nu);
+  return wall_friction(wall, speed, y, ks, nu);
+}
+
 double wall_k(double u_star) { return std::max(k_floor, square(u_star) / std::sqrt(launder_spalding.c_mu)); }
 
 double wall_epsilon(double u_star, double y, double nu) {

@@ -41,6 +41,13 @@ void fill_scalar_ghosts(const Mesh& mesh, const std::vector<double>* inlet, base
 /// rough, smooth: log laws (Eq. 9; laminar below their meeting point); no_slip: nu/y; slip: 0.
 double wall_friction(Wall wall, double speed, double y, double ks, double nu);
 
+/// The friction factor of wall_friction; k-omega SST follows Spalding's law down to the wall where it is smooth.
+double wall_friction(Closure closure, Wall wall, double speed, double y, double ks, double nu);
+
+/// Friction factor of a smooth wall at any distance: the law of Spalding (1961), J. Appl. Mech. 28, 455, viscous below
+/// y+ = 3 and the log law with E = 9 above y+ = 60 [m/s].
+double spalding_friction(double speed, double y, double nu);
+
 /// k, epsilon next to a wall with wall function (Eq. 10-12) from the shear velocity.
 double wall_k(double u_star);
 double wall_epsilon(double u_star, double y, double nu);

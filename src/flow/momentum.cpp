@@ -13,7 +13,7 @@ using base::vector_loop;
 Workspace::Workspace(const Mesh& m) : rows(m) {
   const Field f(m.nx, m.ny);
   face = {f, f, f, f};
-  gamma = wall_c = base_u = base_v = friction_u = friction_v = change = scratch = base = production = turnover = f;
+  gamma = wall_c = base_u = base_v = friction_u = friction_v = change = scratch = base = f;
   phi = outflow = c_x = c_y = c_boundary = f;
   response_u = response_v = Field(m.nx, m.ny, 2, 1.0);
   conductance = {f, f};
@@ -40,16 +40,18 @@ void center_face_flow(const Mesh& m, const State& s, double dt, FaceFlow& face) 
 void evaluate_walls(const Mesh& m, const Boundary& b, const Params& params, const State& s, Workspace& w) {
   const auto along = [&](int i, int j) { return std::abs(0.5 * (s.u(i, j) + s.u(i + 1, j))); };
   for (int i = 0; i < m.nx; ++i) {
-    w.floor_c[i] = wall_friction(b.floor, along(i, 0), 0.5 * m.dy(0), b.floor_roughness, params.viscosity);
-    w.top_c[i] = wall_friction(b.top, along(i, m.ny - 1), 0.5 * m.dy(m.ny - 1), b.floor_roughness, params.viscosity);
+    w.floor_c[i] =
+        wall_friction(params.closure, b.floor, along(i, 0), 0.5 * m.dy(0), b.floor_roughness, params.viscosity);
+    w.top_c[i] = wall_friction(params.closure, b.top, along(i, m.ny - 1), 0.5 * m.dy(m.ny - 1), b.floor_roughness,
+                               params.viscosity);
   }
   if (!m.has_pipe()) return;
   for_each_item(0, m.ny, [&](int j) {
     for (int i = 0; i < m.nx; ++i) {
       if (m.wall_length(i, j) == 0) continue;
       const double speed = std::hypot(0.5 * (s.u(i, j) + s.u(i + 1, j)), 0.5 * (s.v(i, j) + s.v(i, j + 1)));
-      w.wall_c(i, j) = m.wall_length(i, j) *
-                       wall_friction(m.pipe.wall, speed, m.wall_distance(i, j), m.pipe.roughness, params.viscosity);
+      w.wall_c(i, j) = m.wall_length(i, j) * wall_friction(params.closure, m.pipe.wall, speed, m.wall_distance(i, j),
+                                                           m.pipe.roughness, params.viscosity);
     }
   });
 }

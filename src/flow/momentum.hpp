@@ -16,7 +16,6 @@ struct Workspace {
   base::Field friction_u, friction_v;  ///< wall friction of the volumes of u and v [m2/s]
   Conductance conductance;
   base::Field change, scratch, base;
-  base::Field production, turnover;  ///< of turbulent energy [m2/s3]; epsilon/k [1/s]
   base::Field phi, outflow, c_x, c_y, c_boundary;
   RowScratch rows;
   explicit Workspace(const Mesh& mesh);

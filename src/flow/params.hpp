@@ -3,7 +3,9 @@
 /// Plain parameters of the flow: what a case file says, in SI units.  Filled by `case`, read by `flow`.
 namespace livebed::flow {
 
-enum class Closure { laminar, k_epsilon };
+/// k_epsilon: the standard model (paper, Table 1).  k_epsilon_realizable: with Durbin's bound on its time scale.
+/// k_omega_sst: Menter's model, down to the wall where the grid resolves it.
+enum class Closure { laminar, k_epsilon, k_epsilon_realizable, k_omega_sst };
 
 /// hybrid: central below a cell Peclet number of 2, upwind above (the paper).  bounded: second order with a limiter.
 enum class Convection { hybrid, bounded };

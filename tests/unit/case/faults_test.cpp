@@ -60,7 +60,8 @@ const Bad bad_cases[] = {
      "level)"},
     // types
     {"number_for_word", "[flow]\nclosure = 3\n",
-     "bad.toml:4: flow.closure = 3 is a number; one of k_epsilon, laminar is expected"},
+     "bad.toml:4: flow.closure = 3 is a number; one of k_epsilon, k_epsilon_realizable, k_omega_sst, laminar is "
+     "expected"},
     {"array_for_number", "[flow]\ncourant = [0.5]\n",
      "bad.toml:4: flow.courant = [...] is an array; a pure number (or %) is expected"},
     {"date_for_number", "[time]\nend = 2020-01-01\n",
@@ -74,7 +75,8 @@ const Bad bad_cases[] = {
     {"string_for_count", "[bed]\nseed = \"1\"\n",
      "bad.toml:4: bed.seed = \"1\" is a string; a whole number is expected"},
     {"word_misspelt", "[flow]\nclosure = \"k-epsilon\"\n",
-     "bad.toml:4: flow.closure = \"k-epsilon\" is not one of k_epsilon, laminar; did you mean k_epsilon?"},
+     "bad.toml:4: flow.closure = \"k-epsilon\" is not one of k_epsilon, k_epsilon_realizable, k_omega_sst, laminar; "
+     "did you mean k_epsilon?"},
     {"word_with_underscore", "[coupling]\nmode = \"two_way\"\n",
      "bad.toml:4: coupling.mode = \"two_way\" is not one of none, one-way, two-way; did you mean two-way?"},
     {"word_like_none", "[coupling]\nvoidage = \"sometimes\"\n",
