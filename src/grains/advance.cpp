@@ -66,7 +66,7 @@ void advance(Bed& bed, int steps) {
     fill_records(bed.params, bed.state, bed.contacts, bed.records);
   }
   for (int step = 0; step < steps; ++step) {
-    const bool held = sweep(constants, bed.state, bed.contacts, bed.records);
+    const bool held = sweep(constants, bed.contacts, bed.records);
     ++bed.steps;
     if (held) continue;
     read_records(bed.records, bed.state);

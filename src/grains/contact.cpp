@@ -48,22 +48,6 @@ struct Slice {
   push(k.wall, g, touching, contact_distance - distance, dx * inverse, dy * inverse, -g.u, -g.v, g.w, spring);
 }
 
-/// Springs of a slice with a wall, in a full set of lanes whatever the number of grains in the slice.
-struct WallSprings {
-  double lane[lanes];
-  double* home;
-  int filled;
-  WallSprings(Array& of_wall, int begin, int count) : home(of_wall.data() + begin), filled(count) {
-    const Lanes a = load(home, filled);
-    std::memcpy(lane, &a, sizeof a);
-  }
-  void keep() const {
-    Lanes a;
-    std::memcpy(&a, lane, sizeof a);
-    store(home, a, filled);
-  }
-};
-
 /// The nearest of a row of fixed grains `spacing` apart, the first of them at `start`: its distance in x.
 inline Lanes to_nearest(const Lanes& x, double start, double spacing) {
   Lanes dx;
@@ -71,35 +55,28 @@ inline Lanes to_nearest(const Lanes& x, double start, double spacing) {
   return dx;
 }
 
-[[gnu::always_inline]] inline void push_floor(const Sweep& k, Slice& g, Contacts& c, int begin, int filled) {
+void push_floor(const Sweep& k, Slice& g, Contacts& c, int begin) {
   const Lanes zero = Lanes{};
   if (k.floor == Floor::plane) {
-    WallSprings springs(c.wall_spring[slot_floor], begin, filled);
     const Lanes overlap = k.reach.gamma * g.r - g.y;
-    push(k.wall, g, overlap > zero, overlap, zero, zero - 1.0, -g.u, -g.v, g.w, springs.lane);
-    springs.keep();
+    push(k.wall, g, overlap > zero, overlap, zero, zero - 1.0, -g.u, -g.v, g.w, &c.wall_spring[slot_floor][begin]);
     return;
   }
   // A row of fixed grains with their tops at y = 0.  A grain touches at most one of even and one of odd number.
   const double radius = 0.5 * k.reach.floor_diameter;
   for (const int slot : {slot_floor, slot_floor_odd}) {
-    WallSprings springs(c.wall_spring[slot], begin, filled);
     const double start = (slot == slot_floor ? 0.5 : 1.5) * k.floor_spacing;
     push_circle(k, g, to_nearest(g.x, start, 2 * k.floor_spacing), -radius - g.y, k.reach.gamma * (g.r + radius),
-                springs.lane);
-    springs.keep();
+                &c.wall_spring[slot][begin]);
   }
 }
 
-/// Returns through `impulse` what the pipe receives.
-[[gnu::always_inline]] inline void push_pipe(const Sweep& k, Slice& g, Contacts& c, int begin, int filled,
-                                             double& impulse_x, double& impulse_y) {
-  WallSprings springs(c.wall_spring[slot_pipe], begin, filled);
+/// Adds to (impulse_x, impulse_y) what the pipe receives.
+void push_pipe(const Sweep& k, Slice& g, Contacts& c, int begin, double& impulse_x, double& impulse_y) {
   Slice alone = g;
   alone.force_x = alone.force_y = alone.twist = Lanes{};
   push_circle(k, alone, nearest_image<Lanes>(k.pipe.x - g.x, k.reach.length), k.pipe.y - g.y,
-              k.reach.gamma * g.r + 0.5 * k.pipe.diameter, springs.lane);
-  springs.keep();
+              k.reach.gamma * g.r + 0.5 * k.pipe.diameter, &c.wall_spring[slot_pipe][begin]);
   g.force_x += alone.force_x;
   g.force_y += alone.force_y;
   g.twist += alone.twist;
@@ -164,42 +141,38 @@ template <bool across_seam>
   slice_grains = g;
 }
 
-/// Moves the slice and writes its records.  Returns true when a grain has left its half skin.
-[[gnu::always_inline]] inline bool move(const Sweep& k, const Slice& g, State& s, const Contacts& c, Records& records,
-                                        int begin, int filled) {
-  const auto get = [&](const Array& a) { return load(a.data() + begin, filled); };
-  const auto put = [&](Array& a, const Lanes& value) { store(a.data() + begin, value, filled); };
-  const Lanes kick = get(records.kick), beta = get(s.fluid.beta);
-  const Lanes f_x = get(s.fluid.fx), f_y = get(s.fluid.fy), U = get(s.fluid.u), V = get(s.fluid.v);
+/// Moves the slice and writes its records.  Returns a bit for every lane that has left its half skin.
+[[gnu::always_inline]] inline unsigned move(const Sweep& k, const Slice& g, Own& own, Place* place, Motion* motion) {
+  const Lanes kick = load(own.kick), beta = load(own.beta);
+  const Lanes f_x = load(own.fluid_fx), f_y = load(own.fluid_fy), U = load(own.fluid_u), V = load(own.fluid_v);
   const Lanes damped = 1.0 / (1.0 + kick * beta);
   const Lanes u = (g.u + kick * (g.force_x + f_x + beta * U)) * damped;
   const Lanes v = (g.v - k.dt * k.gravity + kick * (g.force_y + f_y + beta * V)) * damped;
-  put(s.impulse_x, get(s.impulse_x) + k.dt * (f_x + beta * (U - u)));
-  put(s.impulse_y, get(s.impulse_y) + k.dt * (f_y + beta * (V - v)));
-  const Lanes omega = get(s.omega) + get(records.spin_kick) * g.twist;
-  put(s.omega, omega);
+  store(own.impulse_x, load(own.impulse_x) + k.dt * (f_x + beta * (U - u)));
+  store(own.impulse_y, load(own.impulse_y) + k.dt * (f_y + beta * (V - v)));
+  const Lanes omega = load(own.omega) + load(own.spin_kick) * g.twist;
+  store(own.omega, omega);
 
   const Lanes zero = Lanes{}, length = zero + k.reach.length;
   const Lanes x_free = g.x + k.dt * u;
   const Lanes x = select(x_free >= length, x_free - length, select(x_free < zero, x_free + length, x_free));
   const Lanes y = g.y + k.dt * v;
-  store_fours(&records.place_next[static_cast<std::size_t>(begin)].x, x, y, g.r, omega * g.r);
-  store_twos(&records.motion_next[static_cast<std::size_t>(begin)].u, u, v);
+  store_fours(&place->x, x, y, g.r, omega * g.r);
+  store_twos(&motion->u, u, v);
 
-  const Lanes dx = nearest_image<Lanes>(x - get(c.x_built), k.reach.length), dy = y - get(c.y_built);
+  const Lanes dx = nearest_image<Lanes>(x - load(own.x_built), k.reach.length), dy = y - load(own.y_built);
   const Lanes limit = zero + base::square(0.5 * k.reach.skin);
-  const unsigned moved = bits(~(dx * dx + dy * dy <= limit));  // a NaN counts as moved
-  return (moved & ((1u << filled) - 1)) != 0;
+  return bits(~(dx * dx + dy * dy <= limit));  // a NaN counts as moved
 }
 
-[[gnu::always_inline]] inline bool step_slice(const Sweep& k, State& s, Contacts& c, Records& records, int slice,
-                                              int filled) {
+/// One step of a slice.  Returns true when a grain of it has left its half skin.
+inline bool step_slice(const Sweep& k, Contacts& c, Records& records, int slice) {
   const int begin = slice * lanes;
-  std::int32_t own[lanes];
-  std::iota(own, own + lanes, begin);
+  std::int32_t at[lanes];
+  std::iota(at, at + lanes, begin);
   Lanes place[4], motion[2];
-  load_fours(&records.place[0].x, own, place);
-  load_twos(&records.motion[0].u, own, motion);
+  load_fours(&records.place[0].x, at, place);
+  load_twos(&records.motion[0].u, at, motion);
   Slice g{.x = place[0], .y = place[1], .u = motion[0], .v = motion[1], .r = place[2], .w = place[3]};
   const unsigned near = c.near[slice];
   if (near & near_seam) {
@@ -207,11 +180,10 @@ template <bool across_seam>
   } else {
     push_pairs<false>(k, g, c, records, slice);
   }
-  if (near & near_floor) push_floor(k, g, c, begin, filled);
-  if (near & near_pipe) {
-    push_pipe(k, g, c, begin, filled, records.pipe_impulse_x[slice], records.pipe_impulse_y[slice]);
-  }
-  return move(k, g, s, c, records, begin, filled);
+  if (near & near_floor) push_floor(k, g, c, begin);
+  if (near & near_pipe) push_pipe(k, g, c, begin, records.pipe_impulse_x[slice], records.pipe_impulse_y[slice]);
+  const unsigned grains = (1u << std::min(lanes, k.count - begin)) - 1;  // the last slice may have idle lanes
+  return (move(k, g, records.own[slice], &records.place_next[begin], &records.motion_next[begin]) & grains) != 0;
 }
 
 }  // namespace
@@ -219,7 +191,8 @@ template <bool across_seam>
 Sweep make_sweep(const Params& p, const Circle& pipe) {
   // An even number of fixed grains fills the period, so that even and odd ones alternate across the seam.
   const double pairs = std::max(1.0, std::round(p.length / (2 * p.diameter)));
-  return {.pair = contact(p, 1),
+  return {.count = p.count,
+          .pair = contact(p, 1),
           .wall = contact(p, p.wall_factor),
           .reach = reach_of(p),
           .floor = p.floor,
@@ -230,34 +203,50 @@ Sweep make_sweep(const Params& p, const Circle& pipe) {
 }
 
 void fill_records(const Params& p, const State& s, const Contacts& c, Records& r) {
-  const int n = s.count(), last = nobody(n);
-  r.place.assign(last + 1, {0, far_away, 0, 0});
-  r.motion.assign(last + 1, {0, 0});
-  r.kick.resize(n);
-  r.spin_kick.resize(n);
-  for (int i = 0; i < n; ++i) {
-    const double radius = 0.5 * s.diameter[i], m = mass(p, s.diameter[i]);
-    r.place[i] = {s.x[i], s.y[i], radius, s.omega[i] * radius};
-    r.motion[i] = {s.u[i], s.v[i]};
-    r.kick[i] = p.step / m;
-    r.spin_kick[i] = p.step / (inertia_factor(p.inertia) * m * radius);
-  }
+  const int n = s.count(), slices = c.slices(), last = nobody(n);
+  r.place.resize(last + 1);
   r.place_next.resize(last + 1);
+  r.motion.resize(last + 1);
   r.motion_next.resize(last + 1);
-  r.place_next[last] = r.place[last];
-  r.motion_next[last] = r.motion[last];
-  r.moved.assign((c.slices() + slices_per_block - 1) / slices_per_block, 0);
-  r.pipe_impulse_x.assign(c.slices(), 0);
-  r.pipe_impulse_y.assign(c.slices(), 0);
+  r.own.resize(slices);
+  const double mass_factor = mass(p, 1);  // a grain's mass is that times d^3
+  base::for_each_item(0, slices, [&](int slice) {
+    Own& own = r.own[slice];
+    if ((slice + 1) * lanes > n) own = Own{};
+    for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
+      const int l = i % lanes;
+      const double radius = 0.5 * s.diameter[i], kick = p.step / (mass_factor * base::cube(s.diameter[i]));
+      r.place[i] = {s.x[i], s.y[i], radius, s.omega[i] * radius};
+      r.motion[i] = {s.u[i], s.v[i]};
+      own.omega[l] = s.omega[i];
+      own.impulse_x[l] = s.impulse_x[i];
+      own.impulse_y[l] = s.impulse_y[i];
+      own.kick[l] = kick;
+      own.spin_kick[l] = kick / (inertia_factor(p.inertia) * radius);
+      own.fluid_u[l] = s.fluid.u[i];
+      own.fluid_v[l] = s.fluid.v[i];
+      own.beta[l] = s.fluid.beta[i];
+      own.fluid_fx[l] = s.fluid.fx[i];
+      own.fluid_fy[l] = s.fluid.fy[i];
+      own.x_built[l] = c.x_built[i];
+      own.y_built[l] = c.y_built[i];
+    }
+  });
+  for (int i = n; i <= last; ++i) {
+    r.place[i] = r.place_next[i] = {0, far_away, 0, 0};
+    r.motion[i] = r.motion_next[i] = {0, 0};
+  }
+  r.moved.assign((slices + slices_per_block - 1) / slices_per_block, 0);
+  r.pipe_impulse_x.assign(slices, 0);
+  r.pipe_impulse_y.assign(slices, 0);
 }
 
-bool sweep(const Sweep& k, State& s, Contacts& c, Records& r) {
-  const int n = s.count(), slices = c.slices(), blocks = static_cast<int>(r.moved.size());
+bool sweep(const Sweep& k, Contacts& c, Records& r) {
+  const int slices = c.slices(), blocks = static_cast<int>(r.moved.size());
   base::for_each_item(0, blocks, [&](int block) {
     bool moved = false;
     for (int slice = block * slices_per_block; slice < std::min(slices, (block + 1) * slices_per_block); ++slice) {
-      const int filled = std::min(lanes, n - slice * lanes);
-      moved |= filled == lanes ? step_slice(k, s, c, r, slice, lanes) : step_slice(k, s, c, r, slice, filled);
+      moved |= step_slice(k, c, r, slice);
     }
     r.moved[block] = moved;
   });
@@ -268,10 +257,14 @@ bool sweep(const Sweep& k, State& s, Contacts& c, Records& r) {
 
 void read_records(const Records& r, State& s) {
   for (int i = 0; i < s.count(); ++i) {
+    const Own& own = r.own[i / lanes];
     s.x[i] = r.place[i].x;
     s.y[i] = r.place[i].y;
     s.u[i] = r.motion[i].u;
     s.v[i] = r.motion[i].v;
+    s.omega[i] = own.omega[i % lanes];
+    s.impulse_x[i] = own.impulse_x[i % lanes];
+    s.impulse_y[i] = own.impulse_y[i % lanes];
   }
 }
 

@@ -18,19 +18,30 @@ struct Motion {
   double u, v;  ///< [m/s]
 };
 
-/// The grains in the form the force loop reads.  Two sets: a step reads one and writes the other, so that no slice sees
-/// a neighbour that has already moved.  Between fill_records and read_records places and velocities live here alone.
+/// What the eight grains of a slice keep to themselves, side by side so that a step reads one stream.
+struct alignas(64) Own {
+  using Eight = double[lanes];
+  Eight omega, impulse_x, impulse_y;  ///< these change with the step
+  Eight kick;                         ///< dt / m [s/kg]
+  Eight spin_kick;                    ///< dt r / I [s/(kg m)]
+  Eight fluid_u, fluid_v, beta, fluid_fx, fluid_fy;
+  Eight x_built, y_built;
+};
+
+/// The grains in the form the force loop reads.  Two sets of places and motions: a step reads one and writes the other,
+/// so that no slice sees a neighbour that has already moved.  Between fill_records and read_records all that changes
+/// with a step lives here alone.
 struct Records {
   base::AlignedVector<Place> place, place_next;
   base::AlignedVector<Motion> motion, motion_next;
-  Array kick;                            ///< dt / m [s/kg]
-  Array spin_kick;                       ///< dt r / I [s/(kg m)]
+  base::AlignedVector<Own> own;
   std::vector<std::uint8_t> moved;       ///< of each block of slices: some grain left its half skin
   Array pipe_impulse_x, pipe_impulse_y;  ///< of each slice since the last collection [N s]
 };
 
 /// The constants of a step.
 struct Sweep {
+  int count;  ///< of grains
   Contact pair, wall;
   Reach reach;
   Floor floor;
@@ -46,7 +57,7 @@ Sweep make_sweep(const Params& p, const Circle& pipe);
 /// Fills the records from the state and clears the pipe's impulse.
 void fill_records(const Params& p, const State& s, const Contacts& c, Records& r);
 
-/// Places and velocities back into the state.
+/// What the steps have changed, back into the state.
 void read_records(const Records& r, State& s);
 
 /// One step of every grain, forces and motion in one pass over the slices (symplectic: velocities, then positions):
@@ -55,7 +66,7 @@ void read_records(const Records& r, State& s);
 ///   3  spin <- spin + dt r sum f_s / I;  x <- x + dt u, wrapped into [0, length)
 /// Returns false when some grain has moved more than half a skin (or nowhere finite), so that the lists must be rebuilt
 /// before the next step.
-bool sweep(const Sweep& k, State& s, Contacts& c, Records& r);
+bool sweep(const Sweep& k, Contacts& c, Records& r);
 
 /// What the grains gave the pipe since the records were filled [N s], summed in the order of the slices.
 base::Vec2 collect_pipe_impulse(Records& r);

@@ -18,24 +18,13 @@ using Mask = std::int64_t __attribute__((vector_size(64)));  ///< a lane is -1 (
 
 inline Lanes all_lanes(double a) { return Lanes{} + a; }
 
-/// Eight values from an array; the missing lanes of the last slice (`filled` < 8) become `rest`.
-inline Lanes load(const double* from, int filled, double rest = 0) {
-  Lanes a = all_lanes(rest);
-  if (filled == lanes) {
-    std::memcpy(&a, from, sizeof a);
-  } else {
-    std::memcpy(&a, from, sizeof(double) * static_cast<std::size_t>(filled));
-  }
+inline Lanes load(const double* from) {
+  Lanes a;
+  std::memcpy(&a, from, sizeof a);
   return a;
 }
 
-inline void store(double* to, const Lanes& a, int filled) {
-  if (filled == lanes) {
-    std::memcpy(to, &a, sizeof a);
-  } else {
-    std::memcpy(to, &a, sizeof(double) * static_cast<std::size_t>(filled));
-  }
-}
+inline void store(double* to, const Lanes& a) { std::memcpy(to, &a, sizeof a); }
 
 inline double select(bool which, double a, double b) { return which ? a : b; }
 inline Lanes select(const Mask& which, const Lanes& a, const Lanes& b) { return which ? a : b; }

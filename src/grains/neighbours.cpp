@@ -114,8 +114,8 @@ void find(const Cells& cells, const Reach& reach, int rank, ListScratch& w) {
     const int base = around[k] * cells.rows;
     const int end = w.cell_start[base + high + 1];
     for (int j = w.cell_start[base + low]; j < end; j += lanes) {
-      const Lanes contact = touching + load(&w.touching[j], lanes);
-      const Lanes dx = nearest_image<Lanes>(load(&w.x[j], lanes) - x, reach.length), dy = load(&w.y[j], lanes) - y;
+      const Lanes contact = touching + load(&w.touching[j]);
+      const Lanes dx = nearest_image<Lanes>(load(&w.x[j]) - x, reach.length), dy = load(&w.y[j]) - y;
       const Lanes d2 = dx * dx + dy * dy, far = contact + reach.skin;
       unsigned here = bits(d2 <= far * far) & ((1u << std::min(lanes, end - j)) - 1);
       if (rank >= j && rank < j + lanes) here &= ~(1u << (rank - j));
@@ -157,7 +157,7 @@ void sort_window(int begin, int end, ListScratch& w) {
 
 void reorder(Array& a, ListScratch& w) {
   w.values.resize(a.size());
-  for (std::size_t k = 0; k < a.size(); ++k) w.values[k] = a[w.old_of_new[k]];
+  for (std::size_t k = 0; k < w.old_of_new.size(); ++k) w.values[k] = a[w.old_of_new[k]];
   a.swap(w.values);
 }
 
@@ -255,7 +255,7 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   const double largest = *std::max_element(s.diameter.begin(), s.diameter.end());
   const double list_reach = reach.gamma * largest + reach.skin;
   const Cells cells = make_cells(s, list_reach, reach.length);
-  for (Array& a : c.wall_spring) a.resize(n, 0.0);
+  for (Array& a : c.wall_spring) a.resize(nobody(n), 0.0);
 
   rank_by_cell(s, cells, reach.gamma, w);
   w.found.resize(static_cast<std::size_t>(n) * most_neighbours);

@@ -28,7 +28,7 @@ struct Contacts {
   std::vector<std::int32_t> first_apart;  ///< from this row of a slice on no pair has touched since the lists exist
   base::AlignedVector<std::int32_t> neighbour;  ///< the other grain, row by row; nobody() where a lane has no more
   Array spring;                                 ///< e_s of the same slot [N]
-  std::array<Array, wall_slots> wall_spring;    ///< e_s of each grain with each wall [N]
+  std::array<Array, wall_slots> wall_spring;    ///< e_s of each grain with each wall, whole slices [N]
   std::vector<std::uint8_t> near;               ///< of each slice, bits of Near
   Array x_built, y_built;                       ///< centres when the lists were built [m]
   Circle pipe_built;                            ///< and the pipe
