@@ -58,26 +58,9 @@ void evaluate_walls(const Mesh& m, const Boundary& b, const Params& params, cons
 
 namespace {
 
-/// Share of the diffusive flux taken at the new time: one half (second order) while a step moves less than the cell's
-/// own width, more beyond, so that no step oscillates.
-double implicit_share(double number) { return number <= 1.0 ? 0.5 : 1.0 - 0.5 / number; }
-
-/// One velocity component.  `along` is the direction it points to: gamma enters twice there (2 Gamma du/dx).
-struct Component {
-  const Staggering& at;
-  bool is_u;
-  Field& value;
-  Field& rate;
-  const Field& beta;
-  const Field& force;
-  const Field& friction;
-  Field& factor;  // base of the line systems
-  Field& response;
-};
-
 /// Conductances of a component: gamma of the cell on faces across its own direction, twice; mean of four cells on the
 /// others.
-void conduct(const Mesh& m, const Component& c, const Field& gamma, Conductance& g) {
+void conduct(const Mesh& m, const MomentumEquation& c, const Field& gamma, Conductance& g) {
   const Staggering& at = c.at;
   for_each_item(0, m.ny + 1, [&](int j) {
     const double *here = gamma.row(j), *below = gamma.row(j - 1);
@@ -101,12 +84,14 @@ void conduct(const Mesh& m, const Component& c, const Field& gamma, Conductance&
   });
 }
 
-void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, State& s, Workspace& w,
-             const Component& c) {
+}  // namespace
+
+void assemble_momentum(const Mesh& m, const Boundary& b, const Params& params, double dt, double lead, const State& s,
+                       Workspace& w, const MomentumEquation& c) {
   const Staggering& at = c.at;
   Conductance& g = w.conductance;
   const double rho = params.density;
-  convect(m, at, params.convection, w.face, c.value, c.rate, w.gamma, dt, w.rows, w.change);
+  convect(m, at, params.convection, w.face, c.value, c.rate, w.gamma, lead, w.rows, w.change);
   conduct(m, c, w.gamma, g);
   const Field& crossing = c.is_u ? w.face.v : w.face.u;  // the other component, centred in time
   const double* hx_u = at.hx.data() + 2;
@@ -147,7 +132,19 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
       response[i] = V[i] * per_inertia / (1.0 + drag);
     });
   });
+}
 
+namespace {
+
+/// Share of the diffusive flux taken at the new time: one half (second order) while a step moves less than the cell's
+/// own width, more beyond, so that no step oscillates.
+double implicit_share(double number) { return number <= 1.0 ? 0.5 : 1.0 - 0.5 / number; }
+
+void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, State& s, Workspace& w,
+             const MomentumEquation& c) {
+  assemble_momentum(m, b, params, dt, dt, s, w, c);
+  const Staggering& at = c.at;
+  Conductance& g = w.conductance;
   // Only the implicit share of each flux stays in the line systems.
   for_each_item(0, m.ny + 1, [&](int j) {
     double *gx = g.x.row(j), *gy = g.y.row(j);
@@ -212,8 +209,7 @@ void predict_outlet(const Mesh& m, const Params& params, double dt, State& s, Wo
 
 }  // namespace
 
-void predict_velocity(const Mesh& m, const Boundary& b, const Params& params, const Staggering& at_u,
-                      const Staggering& at_v, double dt, State& s, Workspace& w) {
+void prepare_momentum(const Mesh& m, const Boundary& b, const Params& params, const State& s, Workspace& w) {
   gather_friction(m, b, params, w);
   for_each_item(-2, m.ny + 2, [&](int j) {
     const double* nut = s.nut.row(j);
@@ -221,12 +217,22 @@ void predict_velocity(const Mesh& m, const Boundary& b, const Params& params, co
     const double nu = params.viscosity;
     vector_loop(-2, m.nx + 2, [&](int i) { gamma[i] = nu + nut[i]; });
   });
+}
+
+MomentumEquation u_equation(const Staggering& at_u, State& s, Workspace& w) {
+  return {at_u, true, s.u, s.rate_u, s.load.beta_u, s.load.force_u, w.friction_u, w.base_u, w.response_u};
+}
+MomentumEquation v_equation(const Staggering& at_v, State& s, Workspace& w) {
+  return {at_v, false, s.v, s.rate_v, s.load.beta_v, s.load.force_v, w.friction_v, w.base_v, w.response_v};
+}
+
+void predict_velocity(const Mesh& m, const Boundary& b, const Params& params, const Staggering& at_u,
+                      const Staggering& at_v, double dt, State& s, Workspace& w) {
+  prepare_momentum(m, b, params, s, w);
   std::copy(s.u.storage().begin(), s.u.storage().end(), s.u_old.storage().begin());
   std::copy(s.v.storage().begin(), s.v.storage().end(), s.v_old.storage().begin());
-  predict(m, b, params, dt, s, w,
-          {at_u, true, s.u, s.rate_u, s.load.beta_u, s.load.force_u, w.friction_u, w.base_u, w.response_u});
-  predict(m, b, params, dt, s, w,
-          {at_v, false, s.v, s.rate_v, s.load.beta_v, s.load.force_v, w.friction_v, w.base_v, w.response_v});
+  predict(m, b, params, dt, s, w, u_equation(at_u, s, w));
+  predict(m, b, params, dt, s, w, v_equation(at_v, s, w));
   if (b.outlet) predict_outlet(m, params, dt, s, w);
 }
 

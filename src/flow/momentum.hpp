@@ -27,6 +27,30 @@ void center_face_flow(const Mesh& mesh, const State& s, double dt, FaceFlow& fac
 /// Friction factors of floor, lid and pipe from the present flow.
 void evaluate_walls(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s, Workspace& w);
 
+/// One velocity component.  gamma enters twice along the direction it points to (2 Gamma du/dx).
+struct MomentumEquation {
+  const Staggering& at;
+  bool is_u;
+  base::Field& value;
+  base::Field& rate;
+  const base::Field& beta;
+  const base::Field& force;
+  const base::Field& friction;
+  base::Field& factor;    ///< base of the line systems
+  base::Field& response;  ///< share of a pressure gradient that accelerates the face
+};
+MomentumEquation u_equation(const Staggering& at_u, State& s, Workspace& w);
+MomentumEquation v_equation(const Staggering& at_v, State& s, Workspace& w);
+
+/// gamma and the wall friction of the volumes, from the present flow.
+void prepare_momentum(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s, Workspace& w);
+
+/// w.change <- dt x acceleration by all forces of Eq. 2-3 on the present flow, the old pressure among them; w.conductance
+/// <- of the faces; factor <- 1 + dt x (drag + friction); response <- with drag alone; rate <- - convection.
+/// lead: how far the face values run ahead in time [s]; 0 for a steady or fully implicit balance.
+void assemble_momentum(const Mesh& mesh, const Boundary& boundary, const Params& params, double dt, double lead,
+                       const State& s, Workspace& w, const MomentumEquation& c);
+
 /// Eq. 2-3 without the new pressure: u, v <- predicted velocity.  Convection explicit and time-centred; diffusion by
 /// two line sweeps (centred in time where that cannot oscillate); drag and wall friction implicit.  On return
 /// state.rate_u, rate_v hold minus the convective acceleration: complete_rates turns them into the acceleration without
