@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
   app::add_resume(program, chosen);
   app::add_keys(program, chosen);
   app::add_report(program, chosen);
+  app::add_bench(program, chosen);
 
   try {
     program.parse(argc, argv);

@@ -15,7 +15,7 @@ struct TimeParams {
   double end_over_T = 0;             ///< the same over the scour time scale T [-]; 0 without a time scale
   double spin_up = 2;                ///< flow on the fixed bed before that [s]
   bool stop_at_equilibrium = false;  ///< end as soon as S/D is steady
-  double equilibrium_change = 0.02;  ///< S/D steady: its range over equilibrium_window stays below this [-]
+  double equilibrium_change = 0.02;  ///< S/D steady: its means over the two halves of the window differ by less [-]
   double equilibrium_window = 2;     ///< [T], T the scour time scale
 };
 

@@ -283,17 +283,17 @@ std::optional<double> time_to_reach(std::span<const double> t, std::span<const d
 }
 
 std::optional<double> equilibrium(std::span<const double> t, std::span<const double> S, double window, double change) {
-  if (t.size() < 2 || t.back() - t.front() < window) return {};
-  double low = S.back(), high = S.back(), sum = 0;
-  int count = 0;
+  if (t.size() < 4 || t.back() - t.front() < window) return {};
+  double sum[2] = {0, 0};  // later and earlier half of the window
+  int count[2] = {0, 0};
   for (std::size_t i = t.size(); i-- > 0 && t.back() - t[i] <= window;) {
-    low = std::min(low, S[i]);
-    high = std::max(high, S[i]);
-    sum += S[i];
-    ++count;
+    const int half = t.back() - t[i] <= 0.5 * window ? 0 : 1;
+    sum[half] += S[i];
+    ++count[half];
   }
-  if (high - low > change) return {};
-  return sum / count;
+  if (count[0] == 0 || count[1] == 0) return {};
+  if (std::abs(sum[0] / count[0] - sum[1] / count[1]) > change) return {};
+  return (sum[0] + sum[1]) / (count[0] + count[1]);
 }
 
 }  // namespace livebed::run

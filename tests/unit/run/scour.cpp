@@ -266,9 +266,9 @@ TEST(scour, equilibrium_needs_a_full_window_of_steady_depth) {
     S.push_back(0.9 * (1 - std::exp(-t.back() / 10)));
     if (!when && equilibrium(t, S, 5, 0.02)) when = t.back();
   }
-  // range over 5 s ending at t: 0.9 exp(-t/10) (exp(0.5) - 1) = 0.02
+  // means over the halves of the 5 s that end at t differ by 0.9 exp(-t/10) 4 (exp(0.25) - 1)^2 = 0.02
   ASSERT_TRUE(when);
-  EXPECT_NEAR(*when, 10 * std::log(0.9 * (std::exp(0.5) - 1) / 0.02), 0.11);
+  EXPECT_NEAR(*when, 10 * std::log(0.9 * 4 * std::pow(std::exp(0.25) - 1, 2) / 0.02), 0.3);
   EXPECT_NEAR(*equilibrium(t, S, 5, 0.02), 0.9, 0.01);
   EXPECT_FALSE(equilibrium(std::vector<double>{0, 1}, std::vector<double>{0.5, 0.5}, 5, 0.02));
 }

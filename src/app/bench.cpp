@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/verbs.hpp"
+#include "base/loops.hpp"
+#include "base/version.hpp"
+#include "flow/mapping.hpp"
+#include "flow/profiles.hpp"
+#include "grains/measures.hpp"
+#include "grains/packing.hpp"
+
+/// Speeds on the jobs that docs/performance.md compares with other codes.
+namespace livebed::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Flow past a pipe at e/D 0.3 in a box of 30 D x 3.5 D, after Oner et al. (2008): Re_D 9500, mean current 0.197 m/s.
+flow::Params pipe_in_channel(double cells) {
+  constexpr double D = 0.05, mean_speed = 0.197, aspect = 1500.0 / 260.0;
+  flow::Params p;
+  p.viscosity = mean_speed * D / 9500.0;
+  p.mesh.length = 30 * D;
+  p.mesh.height = 3.5 * D;
+  p.mesh.cell_y = p.mesh.height / std::sqrt(cells / aspect);
+  p.mesh.cell_x = p.mesh.length / std::sqrt(cells * aspect);
+  p.pipe.diameter = D;
+  p.pipe.x = 10 * D;
+  p.pipe.y = 0.8 * D;
+  p.pipe.gap_ratio = 0.3;
+  p.floor = flow::Wall::smooth;
+  p.current.profile = flow::Profile::smooth;
+  p.current.mean_speed = mean_speed;
+  p.current.shear_velocity =
+      flow::shear_velocity_from_mean(flow::Profile::smooth, mean_speed, p.mesh.height, 0.0, p.viscosity);
+  p.courant = 0.85;
+  p.max_step = 0.1;
+  p.pressure_tolerance = 1e-4;
+  return p;
+}
+
+flow::Solver make_solver(const flow::Params& p) {
+  const flow::Mesh mesh = flow::make_mesh(p.mesh, p.pipe);
+  return {p, mesh, flow::make_boundary(mesh, p)};
+}
+
+nlohmann::ordered_json bench_flow(double cells) {
+  constexpr double coarse_cells = 6000, developed = 6.0;  // 6 s: six shedding periods
+  const flow::Params coarse_params = pipe_in_channel(std::min(cells, coarse_cells));
+  flow::Solver coarse = make_solver(coarse_params);
+  coarse.start();
+  while (coarse.state.time < developed) coarse.advance(coarse.step_limit());
+
+  const flow::Params p = pipe_in_channel(cells);
+  flow::Solver fine = make_solver(p);
+  flow::map_flow(coarse, fine);
+  const int warm_up = 8;
+  for (int k = 0; k < warm_up; ++k) fine.advance(fine.step_limit());
+
+  // As many steps as fit into eight seconds, 10 at least; the median of their times is not led astray by a busy
+  // machine.
+  std::vector<double> times;
+  long iterations = 0;
+  double mass_residual = 0, courant = 0, drag = 0;
+  const auto start = Clock::now();
+  while (times.size() < 10 || (since(start) < 8.0 && times.size() < 1000)) {
+    const auto begin = Clock::now();
+    const double dt = fine.step_limit();
+    const flow::StepReport report = fine.advance(dt);
+    times.push_back(since(begin));
+    iterations += report.pressure.iterations;
+    mass_residual = std::max(mass_residual, report.mass_residual);
+    courant = std::max(courant, report.courant);
+    drag += report.pipe_force.x;
+  }
+  const auto n = static_cast<double>(times.size());
+  std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
+  const double pressure = 0.5 * p.density * p.current.mean_speed * p.current.mean_speed * p.pipe.diameter;
+  nlohmann::ordered_json j;
+  j["cells"] = fine.mesh().nx * fine.mesh().ny;
+  j["threads"] = base::threads();
+  j["seconds_per_step"] = times[times.size() / 2];
+  j["pressure_iterations"] = static_cast<double>(iterations) / n;
+  j["mass_residual"] = mass_residual;
+  j["courant"] = courant;
+  j["drag_coefficient"] = drag / n / pressure;
+  j["steps"] = times.size();
+  return j;
+}
+
+nlohmann::ordered_json bench_grains(int count) {
+  // A bed of 26 layers packed once over a short length, then laid side by side; a slow shear through the water keeps it
+  // moving a little, so that lists are rebuilt as in a bed under scour.
+  grains::Params params;
+  params.stiffness = 5500;
+  params.restitution = 0.3;
+  params.count = 1560;
+  params.length = 0.126;
+  const grains::Packing packing = grains::pack(params);
+  grains::Bed bed = grains::side_by_side(packing.bed, std::max(1, static_cast<int>(std::lround(count / 1560.0))));
+  const double height = grains::bed_height(bed.state);
+  for (int n = 0; n < bed.state.count(); ++n) {
+    const double above = std::max(0.0, bed.state.y[n] / height - 0.8);  // the upper fifth, like bed load at theta 0.33
+    bed.state.fluid.u[n] = 2.5 * above;
+    bed.state.fluid.beta[n] = 1e-3;
+  }
+  constexpr int burst = 50;
+  grains::advance(bed, 2000);
+  const std::int64_t rebuilds_before = bed.contacts.rebuilds;
+  std::vector<double> times;
+  const auto start = Clock::now();
+  while (times.size() < 20 || since(start) < 6.0) {
+    const auto begin = Clock::now();
+    grains::advance(bed, burst);
+    times.push_back(since(begin));
+  }
+  const double steps = burst * static_cast<double>(times.size());
+  const double rebuild_every =
+      steps / std::max<double>(1.0, static_cast<double>(bed.contacts.rebuilds - rebuilds_before));
+  double total = 0;
+  for (double t : times) total += t;
+  std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
+  nlohmann::ordered_json j;
+  j["grains"] = bed.state.count();
+  j["threads"] = base::threads();
+  j["grain_steps_per_second"] = burst * static_cast<double>(bed.state.count()) / times[times.size() / 2];
+  j["grain_steps_per_second_mean"] = steps * static_cast<double>(bed.state.count()) / total;
+  j["contacts_per_grain"] = grains::measure_contacts(bed).per_grain;
+  j["bed_height"] = grains::bed_height(bed.state);
+  j["mean_speed"] = grains::mean_speed(bed.state);
+  j["steps_between_rebuilds"] = rebuild_every;
+  return j;
+}
+
+void tell(nlohmann::ordered_json j, bool json) {
+  j["commit"] = base::commit();
+  j["compiler"] = base::compiler();
+  if (json) {
+    fmt::print("{}\n", j.dump(2));
+    return;
+  }
+  for (const auto& [key, value] : j.items()) fmt::print("{:<28} {}\n", key, value.dump());
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Action& chosen) {
+  CLI::App* verb = app.add_subcommand("bench", "Measure the speed of the flow or of the grains.");
+  verb->require_subcommand(1);
+  struct Arguments {
+    double cells = 390000;
+    int grains = 6240;
+    bool json = false;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* flow = verb->add_subcommand("flow", "k-epsilon flow past a cut pipe, e/D 0.3, in a box of 30 D x 3.5 D");
+  flow->add_option("--cells", a->cells, "number of cells, about")->check(CLI::Range(1000.0, 1e7));
+  flow->add_flag("--json", a->json, "tell it as JSON");
+  flow->callback([a, &chosen] { chosen = [a] { return tell(bench_flow(a->cells), a->json), base::Exit::ok; }; });
+  CLI::App* grains = verb->add_subcommand("grains", "a settled bed whose upper layers creep");
+  grains->add_option("--grains", a->grains, "number of grains, about")->check(CLI::Range(1560, 10000000));
+  grains->add_flag("--json", a->json, "tell it as JSON");
+  grains->callback([a, &chosen] { chosen = [a] { return tell(bench_grains(a->grains), a->json), base::Exit::ok; }; });
+}
+
+}  // namespace livebed::app
