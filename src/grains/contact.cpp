@@ -24,8 +24,7 @@ struct Slice {
 [[gnu::always_inline]] inline void push(const Contact& law, Slice& g, const Mask& touching, const Lanes& overlap,
                                         const Lanes& n_x, const Lanes& n_y, const Lanes& u, const Lanes& v,
                                         const Lanes& spin, double* spring) {
-  Lanes before;
-  std::memcpy(&before, spring, sizeof before);
+  const Lanes before = load(spring);
   const Lanes closing = -(u * n_x + v * n_y);
   const Lanes slip = (v * n_x - u * n_y) - spin;
   const ContactForce<Lanes> f = contact_force<Lanes>(law, overlap, closing, slip, before);
@@ -35,7 +34,7 @@ struct Slice {
   g.force_x -= f_n * n_x + f_s * n_y;
   g.force_y += f_s * n_x - f_n * n_y;
   g.twist += f_s;
-  std::memcpy(spring, &after, sizeof after);
+  store(spring, after);
 }
 
 /// Contact with a circle that does not move: a grain of the floor, or the pipe.
@@ -50,9 +49,10 @@ struct Slice {
 
 /// The nearest of a row of fixed grains `spacing` apart, the first of them at `start`: its distance in x.
 inline Lanes to_nearest(const Lanes& x, double start, double spacing) {
-  Lanes dx;
-  for (int l = 0; l < lanes; ++l) dx[l] = start + spacing * std::nearbyint((x[l] - start) / spacing) - x[l];
-  return dx;
+  double each[lanes];
+  store(each, x);
+  for (double& one : each) one = start + spacing * std::nearbyint((one - start) / spacing) - one;
+  return load(each);
 }
 
 void push_floor(const Sweep& k, Slice& g, Contacts& c, int begin) {

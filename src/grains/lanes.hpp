@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
@@ -13,8 +13,49 @@
 namespace livebed::grains {
 
 inline constexpr int lanes = 8;
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+
 using Lanes = double __attribute__((vector_size(64)));
 using Mask = std::int64_t __attribute__((vector_size(64)));  ///< a lane is -1 (true) or 0 (false)
+
+#else
+
+// Compilers take a vector wider than the machine's apart lane by lane, so without AVX-512 it is made of two halves.
+using Half = double __attribute__((vector_size(32)));
+using HalfMask = std::int64_t __attribute__((vector_size(32)));
+
+struct Mask {
+  HalfMask low, high;
+  friend Mask operator~(const Mask& a) { return {~a.low, ~a.high}; }
+  Mask& operator|=(const Mask& a) { return *this = {low | a.low, high | a.high}; }
+};
+
+struct Lanes {
+  Half low, high;
+
+  double operator[](int l) const { return l < 4 ? low[l] : high[l - 4]; }
+
+  friend Lanes operator-(const Lanes& a) { return {-a.low, -a.high}; }
+  friend Lanes operator+(const Lanes& a, const Lanes& b) { return {a.low + b.low, a.high + b.high}; }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) { return {a.low - b.low, a.high - b.high}; }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) { return {a.low * b.low, a.high * b.high}; }
+  friend Lanes operator+(const Lanes& a, double b) { return {a.low + b, a.high + b}; }
+  friend Lanes operator-(const Lanes& a, double b) { return {a.low - b, a.high - b}; }
+  friend Lanes operator*(const Lanes& a, double b) { return {a.low * b, a.high * b}; }
+  friend Lanes operator+(double a, const Lanes& b) { return {a + b.low, a + b.high}; }
+  friend Lanes operator-(double a, const Lanes& b) { return {a - b.low, a - b.high}; }
+  friend Lanes operator*(double a, const Lanes& b) { return {a * b.low, a * b.high}; }
+  friend Lanes operator/(double a, const Lanes& b) { return {a / b.low, a / b.high}; }
+  Lanes& operator+=(const Lanes& a) { return *this = *this + a; }
+  Lanes& operator-=(const Lanes& a) { return *this = *this - a; }
+
+  friend Mask operator<(const Lanes& a, const Lanes& b) { return {a.low < b.low, a.high < b.high}; }
+  friend Mask operator>(const Lanes& a, const Lanes& b) { return {a.low > b.low, a.high > b.high}; }
+  friend Mask operator<=(const Lanes& a, const Lanes& b) { return {a.low <= b.low, a.high <= b.high}; }
+  friend Mask operator>=(const Lanes& a, const Lanes& b) { return {a.low >= b.low, a.high >= b.high}; }
+};
+
+#endif
 
 inline Lanes all_lanes(double a) { return Lanes{} + a; }
 
@@ -27,7 +68,13 @@ inline Lanes load(const double* from) {
 inline void store(double* to, const Lanes& a) { std::memcpy(to, &a, sizeof a); }
 
 inline double select(bool which, double a, double b) { return which ? a : b; }
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
 inline Lanes select(const Mask& which, const Lanes& a, const Lanes& b) { return which ? a : b; }
+#else
+inline Lanes select(const Mask& which, const Lanes& a, const Lanes& b) {
+  return {which.low ? a.low : b.low, which.high ? a.high : b.high};
+}
+#endif
 
 template <class Real>
 inline Real larger(const Real& a, const Real& b) {
@@ -55,9 +102,13 @@ inline Lanes root(const Lanes& a) {
 inline unsigned bits(const Mask& a) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
   return _mm512_movepi64_mask((__m512i)a);
+#elif defined(__AVX2__)
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)a.low) | _mm256_movemask_pd((__m256d)a.high) << 4);
 #else
+  std::int64_t each[lanes];
+  std::memcpy(each, &a, sizeof a);
   unsigned result = 0;
-  for (int l = 0; l < lanes; ++l) result |= (a[l] != 0 ? 1u : 0u) << l;
+  for (int l = 0; l < lanes; ++l) result |= static_cast<unsigned>(each[l] & (1 << l));
   return result;
 #endif
 }
@@ -76,37 +127,24 @@ inline int append_lanes(std::int32_t* to, std::int32_t first, unsigned which) {
 
 inline double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
 
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+
 /// [records[i], records[j]] of four doubles each.
 inline Lanes join_fours(const double* records, std::int32_t i, std::int32_t j) {
   const double *first = records + 4 * static_cast<std::ptrdiff_t>(i),
                *second = records + 4 * static_cast<std::ptrdiff_t>(j);
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
   // A masked broadcast from memory spares the shuffle unit, which the transposition needs.
   return (Lanes)_mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(first)), 0xf0,
                                             _mm256_loadu_pd(second));
-#else
-  Lanes both;
-  std::memcpy(&both, first, 4 * sizeof(double));
-  std::memcpy(reinterpret_cast<double*>(&both) + 4, second, 4 * sizeof(double));
-  return both;
-#endif
 }
 
 /// [records[at[0]], records[at[2]], records[at[4]], records[at[6]]] of two doubles each.
 inline Lanes join_twos(const double* records, const std::int32_t* at) {
   const auto record = [&](int l) { return records + 2 * static_cast<std::ptrdiff_t>(at[l]); };
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
   __m512d four = _mm512_castpd128_pd512(_mm_loadu_pd(record(0)));
   four = _mm512_mask_broadcast_f64x2(four, 0x0c, _mm_loadu_pd(record(2)));
   four = _mm512_mask_broadcast_f64x2(four, 0x30, _mm_loadu_pd(record(4)));
   return (Lanes)_mm512_mask_broadcast_f64x2(four, 0xc0, _mm_loadu_pd(record(6)));
-#else
-  Lanes four;
-  for (int l = 0; l < lanes; l += 2) {
-    std::memcpy(reinterpret_cast<double*>(&four) + l, record(l), 2 * sizeof(double));
-  }
-  return four;
-#endif
 }
 
 /// Turns records of four doubles, given as [record l, record l+4] for l = 0 to 3, into lanes: a[f] holds field f of
@@ -163,5 +201,62 @@ inline void store_twos(double* records, const Lanes& a, const Lanes& b) {
   std::memcpy(records, &low, sizeof low);
   std::memcpy(records + 8, &high, sizeof high);
 }
+
+#else
+
+// Without AVX-512 the same in halves of four lanes.
+
+inline Half half_of(const double* from) {
+  Half a;
+  std::memcpy(&a, from, sizeof a);
+  return a;
+}
+/// Turns four rows of four into four columns of four.
+inline void transpose(Half a[4]) {
+  const Half even01 = __builtin_shufflevector(a[0], a[1], 0, 4, 2, 6);
+  const Half odd01 = __builtin_shufflevector(a[0], a[1], 1, 5, 3, 7);
+  const Half even23 = __builtin_shufflevector(a[2], a[3], 0, 4, 2, 6);
+  const Half odd23 = __builtin_shufflevector(a[2], a[3], 1, 5, 3, 7);
+  a[0] = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
+  a[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
+  a[2] = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
+  a[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
+}
+
+inline void load_fours(const double* records, const std::int32_t* at, Lanes a[4]) {
+  for (int which = 0; which < 2; ++which) {
+    Half part[4];
+    for (int l = 0; l < 4; ++l) part[l] = half_of(records + 4 * static_cast<std::ptrdiff_t>(at[4 * which + l]));
+    transpose(part);
+    for (int f = 0; f < 4; ++f) (which == 0 ? a[f].low : a[f].high) = part[f];
+  }
+}
+
+inline void load_twos(const double* records, const std::int32_t* at, Lanes a[2]) {
+  double fields[2][lanes];
+  for (int l = 0; l < lanes; ++l) {
+    const double* const record = records + 2 * static_cast<std::ptrdiff_t>(at[l]);
+    fields[0][l] = record[0];
+    fields[1][l] = record[1];
+  }
+  for (int f = 0; f < 2; ++f) a[f] = load(fields[f]);
+}
+
+inline void store_fours(double* records, const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+  Half first[4] = {a.low, b.low, c.low, d.low}, last[4] = {a.high, b.high, c.high, d.high};
+  transpose(first);
+  transpose(last);
+  std::memcpy(records, first, sizeof first);
+  std::memcpy(records + 16, last, sizeof last);
+}
+
+inline void store_twos(double* records, const Lanes& a, const Lanes& b) {
+  for (int l = 0; l < lanes; ++l) {
+    records[2 * l] = a[l];
+    records[2 * l + 1] = b[l];
+  }
+}
+
+#endif
 
 }  // namespace livebed::grains

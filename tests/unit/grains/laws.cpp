@@ -156,13 +156,14 @@ TEST(laws, eight_lanes_and_one_give_the_same_force) {
   p.restitution = 0.4;
   p.friction = 0.5;
   const Contact c = contact(derive(p), 1);
-  Lanes overlap, closing, slip, spring;
+  double values[4][lanes];  // overlap, closing, slip, spring
   for (int l = 0; l < lanes; ++l) {
-    overlap[l] = 1e-6 * (l + 1);
-    closing[l] = 0.01 * std::sin(3.0 * l);
-    slip[l] = 0.01 * std::cos(5.0 * l);
-    spring[l] = 2e-3 * std::sin(7.0 * l);
+    values[0][l] = 1e-6 * (l + 1);
+    values[1][l] = 0.01 * std::sin(3.0 * l);
+    values[2][l] = 0.01 * std::cos(5.0 * l);
+    values[3][l] = 2e-3 * std::sin(7.0 * l);
   }
+  const Lanes overlap = load(values[0]), closing = load(values[1]), slip = load(values[2]), spring = load(values[3]);
   const ContactForce<Lanes> eight = contact_force<Lanes>(c, overlap, closing, slip, spring);
   for (int l = 0; l < lanes; ++l) {
     const ContactForce<double> one = contact_force<double>(c, overlap[l], closing[l], slip[l], spring[l]);
