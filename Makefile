@@ -27,7 +27,9 @@ test: ## all tests
 run: ## the paper's case and its report
 	@./run
 
-bench: all ## the benchmarks
+bench: all ## the speed of flow and grains, then of the kernels
+	@build/livebed bench flow
+	@build/livebed bench grains
 	@for program in build/bench_*; do [ ! -x $$program ] || $$program || exit 1; done
 
 validate: all ## the comparisons with known solutions
