@@ -32,8 +32,8 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
   s.load = {zero, zero, zero, zero};
   for (int j = 0; j < mesh.ny; ++j)
     for (int i = 0; i < mesh.nx; ++i) {
-      work_.response_u(i, j) = at_u_.volume(i, j) / at_u_.inertia(i, j);
-      work_.response_v(i, j) = at_v_.volume(i, j) / at_v_.inertia(i, j);
+      work_.response_u(i, j) = at_u_.pressed(i, j) / at_u_.inertia(i, j);
+      work_.response_v(i, j) = at_v_.pressed(i, j) / at_v_.inertia(i, j);
     }
 }
 

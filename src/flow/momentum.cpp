@@ -98,9 +98,11 @@ void assemble_momentum(const Mesh& m, const Boundary& b, const Params& params, d
   const double* hx_p = m.dx_face_.data() + 2;
 
   for_each_item(at.j0, at.j1, [&](int j) {
-    const double *V = at.volume.row(j), *M = at.inertia.row(j), *beta = c.beta.row(j), *force = c.force.row(j);
+    const double *V = at.volume.row(j), *P = at.pressed.row(j), *M = at.inertia.row(j), *beta = c.beta.row(j),
+                 *force = c.force.row(j);
     const double *fr = c.friction.row(j), *u = c.value.row(j), *below = c.value.row(j - 1), *above = c.value.row(j + 1);
-    const double *gx = g.x.row(j), *gy = g.y.row(j), *gy_above = g.y.row(j + 1), *p = s.p.row(j), *p_below = s.p.row(j - 1);
+    const double *gx = g.x.row(j), *gy = g.y.row(j), *gy_above = g.y.row(j + 1), *p = s.p.row(j),
+                 *p_below = s.p.row(j - 1);
     double *rhs = w.change.row(j), *rate = c.rate.row(j), *factor = c.factor.row(j), *response = c.response.row(j);
     double* outer = w.scratch.row(j);  // forces from the other component and from the pressure
     if (c.is_u) {
@@ -108,19 +110,20 @@ void assemble_momentum(const Mesh& m, const Boundary& b, const Params& params, d
       const double *v = crossing.row(j), *v_above = crossing.row(j + 1), h = at.hy[j + 2], h_above = at.hy[j + 3];
       vector_loop(at.i0, at.i1, [&](int i) {
         const double stress = gy_above[i] * h_above * (v_above[i] - v_above[i - 1]) - gy[i] * h * (v[i] - v[i - 1]);
-        outer[i] = (stress - V[i] / rho * (p[i] - p[i - 1])) / hx_p[i];
+        outer[i] = (stress - P[i] / rho * (p[i] - p[i - 1])) / hx_p[i];
       });
     } else {
       const double *v = crossing.row(j), *v_below = crossing.row(j - 1), scale = 1.0 / m.dy_face(j);
       vector_loop(at.i0, at.i1, [&](int i) {
-        const double stress = gx[i + 1] * hx_u[i + 1] * (v[i + 1] - v_below[i + 1]) - gx[i] * hx_u[i] * (v[i] - v_below[i]);
-        outer[i] = (stress - V[i] / rho * (p[i] - p_below[i])) * scale;
+        const double stress =
+            gx[i + 1] * hx_u[i + 1] * (v[i + 1] - v_below[i + 1]) - gx[i] * hx_u[i] * (v[i] - v_below[i]);
+        outer[i] = (stress - P[i] / rho * (p[i] - p_below[i])) * scale;
       });
     }
     const double lid = c.is_u && j == m.ny - 1 ? b.top_speed : 0.0;
     vector_loop(at.i0, at.i1, [&](int i) {
-      const double diffusion = gx[i + 1] * (u[i + 1] - u[i]) - gx[i] * (u[i] - u[i - 1]) + gy_above[i] * (above[i] - u[i]) -
-                               gy[i] * (u[i] - below[i]);
+      const double diffusion = gx[i + 1] * (u[i + 1] - u[i]) - gx[i] * (u[i] - u[i - 1]) +
+                               gy_above[i] * (above[i] - u[i]) - gy[i] * (u[i] - below[i]);
       const double friction = fr[i] * (u[i] - lid);
       const double forces = diffusion + outer[i] - friction + V[i] / rho * (force[i] - beta[i] * u[i]);
       const double per_inertia = 1.0 / M[i];
@@ -129,7 +132,7 @@ void assemble_momentum(const Mesh& m, const Boundary& b, const Params& params, d
       rhs[i] = dt * (convection + forces * per_inertia);
       rate[i] = -convection;
       factor[i] = 1.0 + drag + dt * fr[i] * per_inertia;
-      response[i] = V[i] * per_inertia / (1.0 + drag);
+      response[i] = P[i] * per_inertia / (1.0 + drag);
     });
   });
 }

@@ -37,12 +37,16 @@ Staggering make(const Mesh& m, int shift_x, int shift_y) {
   Axis x = make_axis(m.dx_, m.dx_face_, shift_x), y = make_axis(m.dy_, m.dy_face_, shift_y);
   s.width = x.size, s.hx = x.h, s.to_west = x.before, s.from_west = x.after;
   s.height = y.size, s.hy = y.h, s.to_south = y.before, s.from_south = y.after;
-  s.volume = s.inertia = s.area_x = s.area_y = base::Field(m.nx, m.ny);
+  s.volume = s.inertia = s.pressed = s.area_x = s.area_y = base::Field(m.nx, m.ny);
+  const auto open = [&](int i, int j) {
+    return shift_x ? m.aperture_x(i, j) : shift_y ? m.aperture_y(i, j) : m.volume(i, j);
+  };
   for (int j = 0; j <= m.ny; ++j)
     for (int i = 0; i <= m.nx; ++i) {
       const int a = i - shift_x, b = j - shift_y;
       s.area_x(i, j) = 0.5 * (m.aperture_x(a, b) + m.aperture_x(i, j)) * s.height[j + 2];
       s.area_y(i, j) = 0.5 * (m.aperture_y(a, b) + m.aperture_y(i, j)) * s.width[i + 2];
+      s.pressed(i, j) = open(i, j) * s.width[i + 2] * s.height[j + 2];
       s.volume(i, j) = 0.5 * (m.volume(a, b) * m.dx(a) * m.dy(b) + m.volume(i, j) * m.dx(i) * m.dy(j));
     }
   for (int j = 0; j < m.ny; ++j)
@@ -50,8 +54,13 @@ Staggering make(const Mesh& m, int shift_x, int shift_y) {
       const double open_x = std::max(s.area_x(i, j), s.area_x(i + 1, j)) / s.height[j + 2];
       const double open_y = std::max(s.area_y(i, j), s.area_y(i, j + 1)) / s.width[i + 2];
       const double whole = s.width[i + 2] * s.height[j + 2];
-      s.inertia(i, j) = std::max(s.volume(i, j), 0.5 * std::max(open_x, open_y) * whole);
+      s.inertia(i, j) = std::max({s.volume(i, j), s.pressed(i, j), 0.5 * std::max(open_x, open_y) * whole});
       if (s.inertia(i, j) <= 0) s.inertia(i, j) = whole;  // solid: nothing moves, nothing divides by zero
+    }
+  for (int j = 0; j <= m.ny; ++j)
+    for (int i = 0; i <= m.nx; ++i) {
+      if (open(i, j) <= 0 || open(i - 1, j) <= 0) s.area_x(i, j) = 0;
+      if (open(i, j) <= 0 || open(i, j - 1) <= 0) s.area_y(i, j) = 0;
     }
   return s;
 }

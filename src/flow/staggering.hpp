@@ -15,8 +15,12 @@ struct Staggering {
   std::vector<double> hx, to_west, from_west;    ///< nodes i-1 and i: distance, i-1 to their face, their face to i [m]
   std::vector<double> hy, to_south, from_south;  ///< the same in y
   base::Field volume;                            ///< open volume [m2 per unit of depth]
-  base::Field inertia;         ///< the same, but never much less than the open faces: a sliver would need a tiny step
-  base::Field area_x, area_y;  ///< open area of west and south faces of the volumes [m]
+  base::Field inertia;  ///< the same, but never much less than the open faces: a sliver would need a tiny step
+  base::Field pressed;  ///< open area of the face the quantity lives on x distance of the pressures on its sides [m2]:
+                        ///< what a pressure gradient pushes, so that the volumes lose to the pipe exactly the pressure
+                        ///< on its surface
+  base::Field area_x, area_y;  ///< open area of west and south faces of the volumes [m]; 0 towards a closed one, whose
+                               ///< wall already has its friction
 
   static Staggering centres(const Mesh& mesh);
   static Staggering west_faces(const Mesh& mesh);
