@@ -144,8 +144,27 @@ void add_flow(std::vector<Row>& s) {
                   .says("hybrid: central below a cell Peclet number of 2, upwind above; bounded: second order, limited")
                   .from("Sec. 2.3"));
   s.push_back(
-      word<flow::Algorithm>("flow.algorithm", flow(&F::algorithm), {{"projection", flow::Algorithm::projection}})
-          .says("how pressure and velocity are brought together"));
+      word<flow::Algorithm>("flow.algorithm", flow(&F::algorithm),
+                            {{"projection", flow::Algorithm::projection}, {"simple", flow::Algorithm::simple}})
+          .says(
+              "how pressure and velocity are brought together: one second-order projection a step, or implicit SIMPLE "
+              "with outer iterations, flow.max_step long at any Courant number")
+          .from("Sec. 3: simple"));
+  s.push_back(
+      flag("flow.steady", flow(&F::steady)).says("simple without inertia: the steady flow past the bed as it is"));
+  s.push_back(
+      real("flow.relax_velocity", "-", flow(&F::relax_velocity)).above(0, 1).says("under-relaxation of simple"));
+  s.push_back(
+      real("flow.relax_pressure", "-", flow(&F::relax_pressure)).above(0, 1).says("under-relaxation of simple"));
+  s.push_back(real("flow.relax_turbulence", "-", flow(&F::relax_turbulence))
+                  .above(0, 1)
+                  .says("under-relaxation of simple for k and epsilon or omega"));
+  s.push_back(real("flow.tolerance", "-", flow(&F::tolerance))
+                  .within(1e-12, 1e-1)
+                  .says("outer iterations of simple end when the scaled residuals of all equations are below it"));
+  s.push_back(integer("flow.outer_iterations", flow(&F::outer_iterations))
+                  .within(1, 100000)
+                  .says("most outer iterations of simple in a step"));
   s.push_back(
       word("flow.floor", flow(&F::floor), walls).says("what the floor of the box does to the flow").from("Eq. 9-12"));
   s.push_back(real("flow.floor_roughness", "m", flow(&F::floor_roughness))
@@ -318,7 +337,7 @@ void add_time(std::vector<Row>& s) {
   s.push_back(flag("time.stop_at_equilibrium", time(&T::stop_at_equilibrium)).says("end as soon as S/D is steady"));
   s.push_back(real("time.equilibrium_change", "-", time(&T::equilibrium_change))
                   .above(0, 1)
-                  .says("S/D is steady when its range over the window stays below this"));
+                  .says("S/D is steady when its means over the two halves of the window differ by less"));
   s.push_back(real("time.equilibrium_window", "-", time(&T::equilibrium_window))
                   .above(0)
                   .says("length of that window in scour time scales"));

@@ -23,6 +23,7 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
       at_c_(Staggering::centres(mesh)),
       work_(mesh),
       turbulence_(mesh, boundary, params),
+      simple_(params.algorithm == Algorithm::simple ? Simple(mesh) : Simple()),
       pressure_(mesh.nx, mesh.ny) {
   const Field zero(mesh.nx, mesh.ny);
   State& s = state;
@@ -47,23 +48,30 @@ void Solver::start() {
   }
   fill_velocity_ghosts(mesh_, boundary_, s.u, s.v);
   double residual = 0;
-  project(1.0, residual);
+  set_pressure_coefficients();
+  sum_outflow();
+  project(1.0, params_.pressure_tolerance, 1.0, residual);
   if (params_.closure != Closure::laminar) turbulence_.start(mesh_, boundary_, params_, s);
   s.p.fill(0.0);  // of a start by impulse: it means nothing for the steps to come
+  coefficients_set_ = false;  // the steps use their own, whether they follow this start or a checkpoint
   s.u_old = s.u;
   s.v_old = s.v;
   s.step = s.time = 0;
 }
 
 double Solver::step_limit() const {
-  const double rate = base::largest(0, mesh_.ny, partial_, 0.0, [&](int j) {
+  const double rate = params_.algorithm == Algorithm::simple ? 0.0 : passage_rate();
+  return rate > 0 ? std::min(params_.max_step, params_.courant / rate) : params_.max_step;
+}
+
+double Solver::passage_rate() const {
+  return base::largest(0, mesh_.ny, partial_, 0.0, [&](int j) {
     const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1), *dx = mesh_.dx_.data() + 2;
     const double dy = mesh_.dy(j);
     return base::vector_largest(0, mesh_.nx, 0.0, [&](int i) {
       return std::max(std::abs(u[i]), std::abs(u[i + 1])) / dx[i] + std::max(std::abs(v[i]), std::abs(va[i])) / dy;
     });
   });
-  return rate > 0 ? std::min(params_.max_step, params_.courant / rate) : params_.max_step;
 }
 
 void Solver::set_pressure_coefficients() {
@@ -102,7 +110,7 @@ void Solver::sum_outflow() {
   });
 }
 
-SolveReport Solver::project(double dt, double& mass_residual) {
+SolveReport Solver::project(double dt, double tolerance, double relax, double& mass_residual) {
   const Mesh& m = mesh_;
   const auto norm = [&] {
     return std::sqrt(base::ordered_sum(0, m.ny, partial_, [&](int j) {
@@ -110,8 +118,6 @@ SolveReport Solver::project(double dt, double& mass_residual) {
       return base::vector_sum(0, m.nx, [&](int i) { return out[i] * out[i]; });
     }));
   };
-  set_pressure_coefficients();
-  sum_outflow();
   const double before = norm();
   const double scale = -params_.density / dt;
   for_each_item(0, m.ny, [&](int j) {
@@ -119,8 +125,7 @@ SolveReport Solver::project(double dt, double& mass_residual) {
     vector_loop(0, m.nx, [&](int i) { b[i] *= scale; });
   });
   work_.phi.fill(0.0);
-  const SolveReport report =
-      pressure_.solve(work_.phi, work_.outflow, params_.pressure_tolerance, params_.pressure_iterations);
+  const SolveReport report = pressure_.solve(work_.phi, work_.outflow, tolerance, params_.pressure_iterations);
   const double kick = dt / params_.density;
   for_each_item(0, m.ny, [&](int j) {
     const double *phi = work_.phi.row(j), *below = work_.phi.row(j - 1), *ax = m.aperture_x.row(j),
@@ -131,7 +136,7 @@ SolveReport Solver::project(double dt, double& mass_residual) {
     vector_loop(1, m.nx, [&](int i) { u[i] -= ax[i] > 0 ? kick * ru[i] * (phi[i] - phi[i - 1]) / hx[i] : 0.0; });
     if (j > 0) vector_loop(0, m.nx, [&](int i) { v[i] -= ay[i] > 0 ? kick * rv[i] * (phi[i] - below[i]) / hy : 0.0; });
     if (boundary_.outlet) u[m.nx] += kick * ru[m.nx] * phi[m.nx - 1] / (0.5 * m.dx(m.nx - 1));
-    vector_loop(0, m.nx, [&](int i) { p[i] += phi[i]; });
+    vector_loop(0, m.nx, [&](int i) { p[i] += relax * phi[i]; });
   });
   fill_velocity_ghosts(m, boundary_, state.u, state.v);
   sum_outflow();
@@ -140,18 +145,26 @@ SolveReport Solver::project(double dt, double& mass_residual) {
 }
 
 StepReport Solver::advance(double dt) {
-  StepReport report;
-  report.courant = dt * params_.courant / step_limit();
-  center_face_flow(mesh_, state, dt, work_.face);
-  evaluate_walls(mesh_, boundary_, params_, state, work_);
-  predict_velocity(mesh_, boundary_, params_, at_u_, at_v_, dt, state, work_);
-  report.pressure = project(dt, report.mass_residual);
-  complete_rates(at_u_, at_v_, dt, state);
-  if (params_.closure != Closure::laminar)
-    advance_turbulence(mesh_, boundary_, params_, at_c_, dt, turbulence_, state, work_);
+  const double courant = dt * passage_rate();
+  StepReport report = params_.algorithm == Algorithm::simple ? advance_simple(dt) : advance_projection(dt);
+  report.courant = courant;
   state.step = dt;
   state.time += dt;
   report.pipe_force = pipe_force();
+  return report;
+}
+
+StepReport Solver::advance_projection(double dt) {
+  StepReport report;
+  center_face_flow(mesh_, state, dt, work_.face);
+  evaluate_walls(mesh_, boundary_, params_, state, work_);
+  predict_velocity(mesh_, boundary_, params_, at_u_, at_v_, dt, state, work_);
+  set_pressure_coefficients();
+  sum_outflow();
+  report.pressure = project(dt, params_.pressure_tolerance, 1.0, report.mass_residual);
+  complete_rates(at_u_, at_v_, dt, state);
+  if (params_.closure != Closure::laminar)
+    advance_turbulence(mesh_, boundary_, params_, at_c_, dt, turbulence_, state, work_);
   return report;
 }
 

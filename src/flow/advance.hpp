@@ -6,6 +6,7 @@
 #include "flow/momentum.hpp"
 #include "flow/params.hpp"
 #include "flow/pressure.hpp"
+#include "flow/simple.hpp"
 #include "flow/state.hpp"
 #include "flow/turbulence.hpp"
 
@@ -18,9 +19,11 @@ struct StepReport {
       0;                  ///< net outflow of the cells after the step over that before the projection (Euclidean norms)
   double courant = 0;     ///< largest dt (|u|/dx + |v|/dy) of the step
   base::Vec2 pipe_force;  ///< pressure and friction on the pipe per metre of its length [N/m]
+  int outer_iterations = 0;  ///< of the SIMPLE algorithm
+  Residuals residuals;       ///< at the start of the last of them
 };
 
-/// The flow: grid, state, and the second-order projection that advances them.
+/// The flow: grid, state, and the algorithm that advances them: the second-order projection or SIMPLE.
 class Solver {
 public:
   Solver(const Params& params, const Mesh& mesh, const Boundary& boundary);
@@ -28,7 +31,8 @@ public:
   /// Inlet profiles everywhere (0 in the bed), made free of divergence.
   void start();
 
-  /// Largest step that keeps the Courant number at params.courant [s], never above params.max_step.
+  /// Largest step that keeps the Courant number at params.courant [s], never above params.max_step; SIMPLE takes
+  /// max_step at any Courant number.
   double step_limit() const;
 
   /// One step of dt [s]:
@@ -36,7 +40,15 @@ public:
   ///   3  u* <- convection, diffusion, drag, old p   4  phi <- div u*,  u <- u* - dt/rho grad phi,  p <- p + phi
   ///   5  k, epsilon, nut <- u
   /// Throws Fault (diverged) when the pressure solve fails.
+  ///
+  /// With SIMPLE an implicit Euler step: outer iterations until the residuals fall below params.tolerance, at most
+  /// params.outer_iterations.  With params.steady the same without inertia: the flow moves towards the steady one past
+  /// what the grains and the pipe are now.
   StepReport advance(double dt);
+
+  /// Outer iterations without inertia until the residuals fall below params.tolerance, at most `most`: one entry an
+  /// iteration.  The flow has converged when the last entry is below the tolerance.
+  std::vector<Residuals> solve_steady(int most);
 
   /// First value that is not finite, as a sentence with place and time; empty when all is well.
   std::string find_fault() const;
@@ -56,7 +68,14 @@ public:
 
 private:
   void set_pressure_coefficients();
-  SolveReport project(double dt, double& mass_residual);
+  /// Largest |u|/dx + |v|/dy [1/s].
+  double passage_rate() const;
+  StepReport advance_projection(double dt);
+  StepReport advance_simple(double dt);
+  StepReport outer_iteration(double inverse_dt);
+  /// u, v <- free of divergence by the gradient of phi, solved to the tolerance given; p <- p + relax phi.
+  /// set_pressure_coefficients and sum_outflow come first.
+  SolveReport project(double dt, double tolerance, double relax, double& mass_residual);
   void sum_outflow();
 
   Params params_;
@@ -65,6 +84,7 @@ private:
   Staggering at_u_, at_v_, at_c_;
   Workspace work_;
   Turbulence turbulence_;
+  Simple simple_;
   PressureSolver pressure_;
   bool coefficients_set_ = false;
   mutable std::vector<double> partial_;

@@ -11,7 +11,8 @@ enum class Closure { laminar, k_epsilon, k_epsilon_realizable, k_omega_sst };
 enum class Convection { hybrid, bounded };
 
 /// How pressure and velocity are brought together.  projection: incremental pressure correction, one solve a step.
-enum class Algorithm { projection };
+/// simple: the paper's, implicit, with under-relaxed outer iterations; any step, or none (steady).
+enum class Algorithm { projection, simple };
 
 /// What a solid surface does to the flow.  rough and smooth are wall functions (Eq. 9-12 of the paper with a rough or a
 /// smooth log law); no_slip resolves the viscous stress; slip has none.
@@ -60,9 +61,15 @@ struct Params {
   Wall floor = Wall::rough;
   double floor_roughness = 0;        ///< ks [m]
   double courant = 0.8;              ///< target of the adaptive step [-]
-  double max_step = 0.01;            ///< [s]
+  double max_step = 0.01;            ///< [s]; the step of simple
   double pressure_tolerance = 1e-6;  ///< residual after the solve over residual before it [-]
   int pressure_iterations = 100;     ///< most iterations before the solve counts as failed
+  bool steady = false;               ///< simple without inertia
+  double relax_velocity = 0.7;       ///< under-relaxation of simple [-]
+  double relax_pressure = 0.3;
+  double relax_turbulence = 0.7;
+  double tolerance = 1e-4;    ///< of simple: outer iterations end when all scaled residuals are below it [-]
+  int outer_iterations = 50;  ///< most of them in a step
   MeshParams mesh;
   PipeParams pipe;
   CurrentParams current;

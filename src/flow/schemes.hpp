@@ -34,12 +34,16 @@ struct Bounded {
 };
 
 /// Hybrid scheme of Spalding (1972), the paper's: central where the cell Peclet number |u| h / Gamma is below 2, upwind
-/// above.
+/// without diffusion above.  The diffusive flux is added elsewhere, so the face value here takes away from upwind what
+/// that flux brings: m + (p - m) / Pe, which meets the central value at Pe = 2 (where the face is not midway, at Pe = h
+/// / distance of the upwind node).
 struct Hybrid {
   double operator()(const Stencil4& s, double velocity, double, double, double, double gamma) const {
-    const bool central = std::abs(velocity) * s.h < 2.0 * gamma;
-    const double mean = (s.m * s.to_face_p + s.p * s.to_face_m) / s.h;
-    return central ? mean : (velocity > 0 ? s.m : s.p);
+    const double speed_h = std::abs(velocity) * s.h;
+    const bool forward = velocity > 0;
+    const double central = (forward ? s.to_face_m : s.to_face_p) / s.h;
+    const double downstream = speed_h * central < gamma ? central : gamma / speed_h;
+    return forward ? s.m + (s.p - s.m) * downstream : s.p + (s.m - s.p) * downstream;
   }
 };
 

@@ -51,13 +51,30 @@ TEST(bounded, stays_between_the_nodes_of_the_face) {
   EXPECT_GT(limited, 500);  // extrema fall back on upwind
 }
 
-TEST(hybrid, is_central_below_a_peclet_number_of_two_and_upwind_above) {
-  const Stencil4 s = stencil([](double x) { return 2 + 3 * x; });
+/// 2 + 3 x at nodes one metre apart, the face in the middle.
+const Stencil4 even{-2.5, 0.5, 3.5, 6.5, 1, 1, 1, 0.5, 0.5};
+
+TEST(hybrid, is_central_below_a_peclet_number_of_two) {
+  const Stencil4& s = even;
   const double gamma = 0.5;
   EXPECT_NEAR(Hybrid{}(s, 0.99, 1, 0, 0, gamma), 2, 1e-14);
   EXPECT_NEAR(Hybrid{}(s, -0.99, 1, 0, 0, gamma), 2, 1e-14);
-  EXPECT_EQ(Hybrid{}(s, 1.01, 1, 0, 0, gamma), s.m);
-  EXPECT_EQ(Hybrid{}(s, -1.01, 1, 0, 0, gamma), s.p);
+}
+
+TEST(hybrid, is_upwind_without_diffusion_above_a_peclet_number_of_two) {
+  const Stencil4& s = even;
+  const double gamma = 0.5;
+  const auto convected_and_diffused = [&](double velocity) {
+    return velocity * Hybrid{}(s, velocity, 1, 0, 0, gamma) - gamma * (s.p - s.m) / s.h;
+  };
+  EXPECT_NEAR(convected_and_diffused(1.01), 1.01 * s.m, 1e-14);
+  EXPECT_NEAR(convected_and_diffused(-1.01), -1.01 * s.p, 1e-14);
+  EXPECT_NEAR(convected_and_diffused(30), 30 * s.m, 1e-13);
+}
+
+TEST(hybrid, does_not_jump_where_it_leaves_central) {
+  const Stencil4& s = even;
+  EXPECT_NEAR(Hybrid{}(s, 1 - 1e-9, 1, 0, 0, 0.5), Hybrid{}(s, 1 + 1e-9, 1, 0, 0, 0.5), 1e-8);
 }
 
 }  // namespace
