@@ -13,17 +13,29 @@ int threads();
 /// Processors this program may run on.
 int available_threads();
 
+/// One item, always by the same machine code: inlined twice, into the serial and into the parallel loop, the compiler
+/// may order the additions of a sum differently in each.
+template <class Body>
+#ifdef __clang__
+[[gnu::noinline]]
+#else
+[[gnu::noipa]]
+#endif
+void do_item(Body& body, int k) {
+  body(k);
+}
+
 /// Calls body(k) once for every k in [begin, end), on all threads.  body must not throw and writes only what belongs to
 /// item k.
 template <class Body>
 void for_each_item(int begin, int end, Body&& body) {
   const int n = threads();
   if (n == 1 || end - begin < 2) {
-    for (int k = begin; k < end; ++k) body(k);
+    for (int k = begin; k < end; ++k) do_item(body, k);
     return;
   }
 #pragma omp parallel for schedule(static) num_threads(n)
-  for (int k = begin; k < end; ++k) body(k);
+  for (int k = begin; k < end; ++k) do_item(body, k);
 }
 
 /// Sum of item(k) over [begin, end) in the order of k.  Scratch holds the partial sums (grown once, then reused).

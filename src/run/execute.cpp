@@ -48,7 +48,9 @@ base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::file
         sim.step();
       } else if (sim.time() < 0) {
         sim.spin_up_step();
-      } else {
+      }
+      // In the same round as the last step before it: the row of t = 0 tells of that step.
+      if (!sim.clock().released && sim.time() >= 0) {
         sim.release();
         options.say(fmt::format(
             "grains released; end at t = {:.4g} s{}", c.time.end,
