@@ -176,10 +176,11 @@ base::Vec2 Solver::pipe_force() const {
     for (int i = 0; i < m.nx; ++i) {
       if (m.wall_length(i, j) == 0) continue;
       const base::Vec2 wall = wall_vector(m, i, j);
-      const double friction = 0.5 * params_.density * work_.wall_c(i, j);
-      force.x += -state.p(i, j) * wall.x + friction * (state.u(i, j) + state.u(i + 1, j));
-      force.y += -state.p(i, j) * wall.y + friction * (state.v(i, j) + state.v(i, j + 1));
+      force.x -= state.p(i, j) * wall.x;
+      force.y -= state.p(i, j) * wall.y;
     }
+  for (const WallPart& part : work_.wall_u) force.x += params_.density * part.friction * state.u(part.i, part.j);
+  for (const WallPart& part : work_.wall_v) force.y += params_.density * part.friction * state.v(part.i, part.j);
   return force;
 }
 

@@ -10,7 +10,7 @@ using base::Field;
 using base::for_each_item;
 using base::vector_loop;
 
-Workspace::Workspace(const Mesh& m) : rows(m) {
+Workspace::Workspace(const Mesh& m) : wall_u(share_wall(m, true)), wall_v(share_wall(m, false)), rows(m) {
   const Field f(m.nx, m.ny);
   face = {f, f, f, f};
   gamma = wall_c = base_u = base_v = friction_u = friction_v = change = scratch = base = f;
@@ -175,14 +175,20 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
 
 /// Wall friction of floor, lid, closed sides and pipe gathered on the volumes of u and v.
 void gather_friction(const Mesh& m, const Boundary& b, const Params& params, Workspace& w) {
-  for_each_item(0, m.ny, [&](int j) {
-    const double *here = w.wall_c.row(j), *below = w.wall_c.row(j - 1);
-    double *fu = w.friction_u.row(j), *fv = w.friction_v.row(j);
-    vector_loop(0, m.nx, [&](int i) {
-      fu[i] = 0.5 * (here[i - 1] + here[i]);
-      fv[i] = 0.5 * (below[i] + here[i]);
-    });
-  });
+  w.friction_u.fill(0.0);
+  w.friction_v.fill(0.0);
+  const auto at_pipe = [&](std::vector<WallPart>& wall, int sx, int sy, Field& friction) {
+    for (WallPart& part : wall) {
+      // A viscous layer is measured from the velocity itself; wall functions from the middle of the cell, where they
+      // also set the turbulence.
+      part.friction = m.pipe.wall == Wall::no_slip
+                          ? part.length * params.viscosity / part.distance
+                          : part.before * w.wall_c(part.i - sx, part.j - sy) + part.after * w.wall_c(part.i, part.j);
+      friction(part.i, part.j) = part.friction;
+    }
+  };
+  at_pipe(w.wall_u, 1, 0, w.friction_u);
+  at_pipe(w.wall_v, 0, 1, w.friction_v);
   for (int i = 1; i < m.nx; ++i) {
     w.friction_u(i, 0) += 0.5 * (w.floor_c[i - 1] * m.dx(i - 1) + w.floor_c[i] * m.dx(i));
     w.friction_u(i, m.ny - 1) += 0.5 * (w.top_c[i - 1] * m.dx(i - 1) + w.top_c[i] * m.dx(i));

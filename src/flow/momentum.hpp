@@ -7,13 +7,14 @@ namespace livebed::flow {
 
 /// Fields that one step needs besides the state; allocated once.
 struct Workspace {
-  FaceFlow face;                       ///< time-centred flow through the faces
-  base::Field gamma;                   ///< nu + nut at cell centres [m2/s]
-  base::Field wall_c;                  ///< friction factor x length of the pipe's surface in a cell [m2/s]
-  std::vector<double> floor_c, top_c;  ///< friction factor of floor and lid above cell i [m/s]
-  base::Field base_u, base_v;          ///< implicit factor of drag and friction in the momentum lines [-]
-  base::Field response_u, response_v;  ///< share of a pressure gradient that accelerates the face, after drag [-]
-  base::Field friction_u, friction_v;  ///< wall friction of the volumes of u and v [m2/s]
+  FaceFlow face;                         ///< time-centred flow through the faces
+  base::Field gamma;                     ///< nu + nut at cell centres [m2/s]
+  std::vector<WallPart> wall_u, wall_v;  ///< the pipe as u and v meet it
+  base::Field wall_c;                    ///< friction factor x length of the pipe's surface in a cell [m2/s]
+  std::vector<double> floor_c, top_c;    ///< friction factor of floor and lid above cell i [m/s]
+  base::Field base_u, base_v;            ///< implicit factor of drag and friction in the momentum lines [-]
+  base::Field response_u, response_v;    ///< share of a pressure gradient that accelerates the face, after drag [-]
+  base::Field friction_u, friction_v;    ///< wall friction of the volumes of u and v [m2/s]
   Conductance conductance;
   base::Field change, scratch, base;
   base::Field phi, outflow, c_x, c_y, c_boundary;
@@ -45,7 +46,8 @@ MomentumEquation v_equation(const Staggering& at_v, State& s, Workspace& w);
 /// gamma and the wall friction of the volumes, from the present flow.
 void prepare_momentum(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s, Workspace& w);
 
-/// w.change <- dt x acceleration by all forces of Eq. 2-3 on the present flow, the old pressure among them; w.conductance
+/// w.change <- dt x acceleration by all forces of Eq. 2-3 on the present flow, the old pressure among them;
+/// w.conductance
 /// <- of the faces; factor <- 1 + dt x (drag + friction); response <- with drag alone; rate <- - convection.
 /// lead: how far the face values run ahead in time [s]; 0 for a steady or fully implicit balance.
 void assemble_momentum(const Mesh& mesh, const Boundary& boundary, const Params& params, double dt, double lead,

@@ -1,6 +1,9 @@
 #include "flow/staggering.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "flow/constants.hpp"
 
 namespace livebed::flow {
 
@@ -28,6 +31,20 @@ Axis make_axis(const std::vector<double>& width, const std::vector<double>& betw
     }
   }
   return a;
+}
+
+/// Mean distance from the pipe of the open part of the west (shift_x) or south face of cell (i,j), sampled.
+double face_distance(const Mesh& m, bool west, int i, int j) {
+  const int n = 32;
+  double sum = 0;
+  int open = 0;
+  for (int k = 0; k < n; ++k) {
+    const double f = (k + 0.5) / n;
+    const double x = west ? m.x[i] : m.x[i] + f * m.dx(i), y = west ? m.y[j] + f * m.dy(j) : m.y[j];
+    const double away = std::hypot(x - m.pipe.x, y - m.pipe.y) - 0.5 * m.pipe.diameter;
+    if (away > 0) sum += away, ++open;
+  }
+  return std::max(open ? sum / open : 0.0, wall_distance_least * std::min(m.dx(i), m.dy(j)));
 }
 
 Staggering make(const Mesh& m, int shift_x, int shift_y) {
@@ -70,5 +87,24 @@ Staggering make(const Mesh& m, int shift_x, int shift_y) {
 Staggering Staggering::centres(const Mesh& m) { return make(m, 0, 0); }
 Staggering Staggering::west_faces(const Mesh& m) { return make(m, 1, 0); }
 Staggering Staggering::south_faces(const Mesh& m) { return make(m, 0, 1); }
+
+std::vector<WallPart> share_wall(const Mesh& m, bool west) {
+  std::vector<WallPart> parts;
+  const int sx = west ? 1 : 0, sy = 1 - sx;
+  const base::Field& aperture = west ? m.aperture_x : m.aperture_y;
+  for (int j = sy; j < m.ny; ++j)
+    for (int i = sx; i < m.nx; ++i) {
+      const double open = aperture(i, j);
+      const double length_before = m.wall_length(i - sx, j - sy), length_after = m.wall_length(i, j);
+      if (open <= 0 || length_before + length_after <= 0) continue;
+      WallPart part{i, j};
+      part.before = open / (open + aperture(i - sx, j - sy));
+      part.after = open / (open + aperture(i + sx, j + sy));
+      part.length = part.before * length_before + part.after * length_after;
+      part.distance = face_distance(m, west, i, j);
+      parts.push_back(part);
+    }
+  return parts;
+}
 
 }  // namespace livebed::flow

@@ -5,6 +5,16 @@
 
 namespace livebed::flow {
 
+/// The pipe's surface as one control volume of a velocity component meets it.  A cell's surface is shared by its two
+/// faces as their openings are, so that closed faces take none of it.
+struct WallPart {
+  int i = 0, j = 0;              ///< of the volume
+  double before = 0, after = 0;  ///< shares of the surface in cells (i - shift_x, j - shift_y) and (i, j) [-]
+  double length = 0;             ///< of all of it [m]
+  double friction = 0;           ///< factor x length at present [m2/s]
+  double distance = 0;           ///< mean distance of the open part of the volume's face from the pipe [m]
+};
+
 /// Where a quantity lives on the grid: at cell centres, on west faces (u) or on south faces (v), with the control
 /// volumes around it.  Whatever belongs to a face of such a volume is the mean of two cell faces, (i - shift_x, j -
 /// shift_y) and (i, j): so u, v and scalars share every kernel.
@@ -26,5 +36,8 @@ struct Staggering {
   static Staggering west_faces(const Mesh& mesh);
   static Staggering south_faces(const Mesh& mesh);
 };
+
+/// Every open volume of u (west faces) or v (south faces) that meets the pipe.
+std::vector<WallPart> share_wall(const Mesh& mesh, bool west);
 
 }  // namespace livebed::flow

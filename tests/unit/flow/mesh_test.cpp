@@ -134,7 +134,10 @@ TEST(staggering, covers_the_open_area_and_lets_water_balance) {
       open += m.volume(i, j) * m.dx(i) * m.dy(j);
       EXPECT_NEAR(c.volume(i, j), m.volume(i, j) * m.dx(i) * m.dy(j), 1e-15);
       EXPECT_NEAR(c.area_x(i, j), m.aperture_x(i, j) * m.dy(j), 1e-15);
-      EXPECT_NEAR(v.area_y(i, j), 0.5 * (m.aperture_y(i, std::max(j - 1, -1)) + m.aperture_y(i, j)) * m.dx(i), 1e-15);
+      // Between two open faces the mean of both cells, towards a closed one nothing: its wall has that friction.
+      const bool both = m.aperture_y(i, j - 1) > 0 && m.aperture_y(i, j) > 0;
+      EXPECT_NEAR(v.area_y(i, j), both ? 0.5 * (m.aperture_y(i, j - 1) + m.aperture_y(i, j)) * m.dx(i) : 0, 1e-15);
+      EXPECT_NEAR(u.pressed(i, j), m.aperture_x(i, j) * m.dx_face(i) * m.dy(j), 1e-15);
       EXPECT_GE(u.inertia(i, j), u.volume(i, j));
       EXPECT_GT(c.inertia(i, j), 0);
     }
@@ -143,6 +146,23 @@ TEST(staggering, covers_the_open_area_and_lets_water_balance) {
     at_u += 0.5 * (m.dx(0) + m.dx(m.nx - 1)) * m.dy(j);  // the halves at both ends
   }
   EXPECT_NEAR(at_u, open, 1e-12);
+}
+
+TEST(share_wall, gives_all_of_the_surface_to_open_faces) {
+  const Mesh m = mesh_with_pipe(0.40713, 0.29871, 0.2, 1.1);
+  double length = 0;
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i) length += m.wall_length(i, j);
+  for (bool west : {true, false}) {
+    double shared = 0;
+    for (const WallPart& part : share_wall(m, west)) {
+      EXPECT_GT((west ? m.aperture_x : m.aperture_y)(part.i, part.j), 0);
+      EXPECT_GT(part.distance, 0);
+      EXPECT_LT(part.distance, 1.5 * std::max(m.dx(part.i), m.dy(part.j)));
+      shared += part.length;
+    }
+    EXPECT_NEAR(shared / length, 1, 0.01);  // cells with neither face open keep theirs to themselves
+  }
 }
 
 }  // namespace
