@@ -33,18 +33,41 @@ Axis make_axis(const std::vector<double>& width, const std::vector<double>& betw
   return a;
 }
 
-/// Mean distance from the pipe of the open part of the west (shift_x) or south face of cell (i,j), sampled.
-double face_distance(const Mesh& m, bool west, int i, int j) {
-  const int n = 32;
-  double sum = 0;
+/// The open part of a west or south face that the pipe cuts, sampled.
+struct OpenPart {
+  double middle = 0;    ///< of its points along the face [m]
+  double distance = 0;  ///< mean distance of its points from the pipe [m]
+};
+
+OpenPart open_part(const Mesh& m, bool west, int i, int j) {
+  constexpr int n = 64;
+  OpenPart part;
   int open = 0;
   for (int k = 0; k < n; ++k) {
     const double f = (k + 0.5) / n;
     const double x = west ? m.x[i] : m.x[i] + f * m.dx(i), y = west ? m.y[j] + f * m.dy(j) : m.y[j];
     const double away = std::hypot(x - m.pipe.x, y - m.pipe.y) - 0.5 * m.pipe.diameter;
-    if (away > 0) sum += away, ++open;
+    if (away > 0) part.middle += west ? y : x, part.distance += away, ++open;
   }
-  return std::max(open ? sum / open : 0.0, wall_distance_least * std::min(m.dx(i), m.dy(j)));
+  if (open > 0) part.middle /= open, part.distance /= open;
+  return part;
+}
+
+/// Friction between a cut face and the next one along it acts over the distance of their open parts, not over that of
+/// the whole faces: without this the pipe would seem smaller by part of a cell.
+void draw_closer(const Mesh& m, Staggering& s) {
+  const bool west = s.shift_x > 0;
+  const base::Field& aperture = west ? m.aperture_x : m.aperture_y;
+  base::Field& area = west ? s.area_y : s.area_x;
+  for (int j = 1; j < m.ny; ++j)
+    for (int i = 1; i < m.nx; ++i) {
+      const int a = west ? i : i - 1, b = west ? j - 1 : j;
+      const double here = aperture(i, j), there = aperture(a, b);
+      if (here <= 0 || there <= 0 || (here >= 1 && there >= 1)) continue;
+      const double apart = open_part(m, west, i, j).middle - open_part(m, west, a, b).middle;
+      const double whole = west ? m.dy_face(j) : m.dx_face(i);
+      area(i, j) *= whole / std::max(apart, 0.5 * whole);
+    }
 }
 
 Staggering make(const Mesh& m, int shift_x, int shift_y) {
@@ -79,6 +102,7 @@ Staggering make(const Mesh& m, int shift_x, int shift_y) {
       if (open(i, j) <= 0 || open(i - 1, j) <= 0) s.area_x(i, j) = 0;
       if (open(i, j) <= 0 || open(i, j - 1) <= 0) s.area_y(i, j) = 0;
     }
+  if (m.has_pipe() && shift_x + shift_y > 0) draw_closer(m, s);
   return s;
 }
 
@@ -101,7 +125,7 @@ std::vector<WallPart> share_wall(const Mesh& m, bool west) {
       part.before = open / (open + aperture(i - sx, j - sy));
       part.after = open / (open + aperture(i + sx, j + sy));
       part.length = part.before * length_before + part.after * length_after;
-      part.distance = face_distance(m, west, i, j);
+      part.distance = std::max(open_part(m, west, i, j).distance, wall_distance_least * std::min(m.dx(i), m.dy(j)));
       parts.push_back(part);
     }
   return parts;

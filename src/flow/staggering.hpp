@@ -29,8 +29,9 @@ struct Staggering {
   base::Field pressed;  ///< open area of the face the quantity lives on x distance of the pressures on its sides [m2]:
                         ///< what a pressure gradient pushes, so that the volumes lose to the pipe exactly the pressure
                         ///< on its surface
-  base::Field area_x, area_y;  ///< open area of west and south faces of the volumes [m]; 0 towards a closed one, whose
-                               ///< wall already has its friction
+  /// Open area of west and south faces of the volumes as friction sees it [m]: 0 towards a closed volume, whose wall
+  /// already has its friction, and larger where the pipe leaves the open parts of two faces closer than the faces.
+  base::Field area_x, area_y;
 
   static Staggering centres(const Mesh& mesh);
   static Staggering west_faces(const Mesh& mesh);

@@ -143,7 +143,7 @@ TEST(pipe_flow, surface_and_momentum_of_a_box_give_the_same_force) {
     const double surface = flow.pipe_force().x, box = box_force(flow, 1.2);
     std::printf("drag coefficient by the surface %.4f, by the momentum of a box %.4f\n", 2 * surface, 2 * box);
     EXPECT_NEAR(surface / box, 1, 0.01);
-    EXPECT_NEAR(2 * box, 1.66, 0.05);  // 1.5-1.58 in a stream without sides; these are 12 diameters apart
+    EXPECT_NEAR(2 * box, 1.73, 0.03);  // wherever the pipe lies; 1.5-1.58 without sides, which are 12 diameters apart
   }
 }
 
