@@ -106,7 +106,6 @@ nlohmann::ordered_json bench_grains(int count) {
   params.length = 0.126;
   const grains::Packing packing = grains::pack(params);
   grains::Bed bed = grains::side_by_side(packing.bed, std::max(1, static_cast<int>(std::lround(count / 1560.0))));
-  const double height = grains::bed_height(bed.state);
   const grains::Reach reach = grains::reach_of(bed.params);
   grains::advance(bed, 2000);
   std::vector<double> times;

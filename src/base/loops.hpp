@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 /// The only file that knows threads.  Loops hand out whole items (rows, slices, blocks) and sums are made of partial
@@ -25,17 +26,28 @@ void do_item(Body& body, int k) {
   body(k);
 }
 
-/// Calls body(k) once for every k in [begin, end), on all threads.  body must not throw and writes only what belongs to
-/// item k.
+/// Calls work(data, share, shares) once for each share of 0 .. shares-1, one share a thread, and returns when all are
+/// done. Inside of a share, and with alone, there is one share.  Every loop goes through this call, whatever the number
+/// of threads: the compiler then makes one version of its body, and one version has one rounding.
+void on_all_threads(void (*work)(void* data, int share, int shares), void* data, bool alone);
+
+/// Calls body(k) once for every k in [begin, end), on all threads unless alone (loops too small to be worth it).  body
+/// must not throw and writes only what belongs to item k.
 template <class Body>
-void for_each_item(int begin, int end, Body&& body) {
-  const int n = threads();
-  if (n == 1 || end - begin < 2) {
-    for (int k = begin; k < end; ++k) do_item(body, k);
-    return;
-  }
-#pragma omp parallel for schedule(static) num_threads(n)
-  for (int k = begin; k < end; ++k) do_item(body, k);
+void for_each_item(int begin, int end, Body&& body, bool alone = false) {
+  struct Range {
+    int begin, count;
+    std::remove_reference_t<Body>& body;
+  } range{begin, end - begin, body};
+  on_all_threads(
+      [](void* data, int share, int shares) {
+        const Range& r = *static_cast<Range*>(data);
+        const auto first = [&](int s) {
+          return r.begin + static_cast<int>(static_cast<long long>(r.count) * s / shares);
+        };
+        for (int k = first(share); k < first(share + 1); ++k) r.body(k);
+      },
+      &range, alone || end - begin < 2);
 }
 
 /// Sum of item(k) over [begin, end) in the order of k.  Scratch holds the partial sums (grown once, then reused).

@@ -11,26 +11,18 @@ using base::vector_loop;
 
 namespace {
 
-constexpr int block_columns = 256;  // at most, so that what a line solve touches stays in the second cache
+constexpr int widest_block = 256;  // columns, so that what a line solve touches stays in the second cache
 constexpr int cells_worth_threads = 8000;
 constexpr float pivot_least = 1e-5f;  // of the diagonal: below it a line floats free (pure Neumann) and keeps 0
 
-/// Calls pass(m0, m1) over blocks of columns, on all threads when there is work for them.  Columns do not depend on one
-/// another inside a pass, so the blocks do not change a bit.
+/// Calls pass(m0, m1) over blocks of columns, on all threads when there is work for them.  The blocks depend on the
+/// grid alone, not on the threads, and with them every rounding.
 template <class Pass>
 void over_blocks(int nm, int ny, Pass&& pass) {
-  const int threads = nm * ny < cells_worth_threads ? 1 : base::threads();
-  const int rounds = (nm + block_columns * threads - 1) / (block_columns * threads);
-  const int blocks = std::max(1, rounds * threads);
-  const int width = ((nm + blocks - 1) / blocks + 15) / 16 * 16;
-  const auto one = [&](int k) {
-    const int m0 = std::min(nm, k * width), m1 = std::min(nm, m0 + width);
-    if (m0 < m1) pass(m0, m1);
-  };
-  if (threads == 1)
-    for (int k = 0; k < blocks; ++k) one(k);
-  else
-    base::for_each_item(0, blocks, one);
+  const int width = std::clamp((nm + 3) / 4, 32, widest_block) / 16 * 16;
+  base::for_each_item(
+      0, (nm + width - 1) / width, [&](int k) { pass(k * width, std::min(nm, (k + 1) * width)); },
+      nm * ny < cells_worth_threads);
 }
 
 /// Solves the vertical lines of one colour, x = T^-1 (b + west x_west + east x_east).  Column m of this colour lies
