@@ -52,7 +52,7 @@ void Solver::start() {
   sum_outflow();
   project(1.0, params_.pressure_tolerance, 1.0, residual);
   if (params_.closure != Closure::laminar) turbulence_.start(mesh_, boundary_, params_, s);
-  s.p.fill(0.0);  // of a start by impulse: it means nothing for the steps to come
+  s.p.fill(0.0);              // of a start by impulse: it means nothing for the steps to come
   coefficients_set_ = false;  // the steps use their own, whether they follow this start or a checkpoint
   s.u_old = s.u;
   s.v_old = s.v;

@@ -26,8 +26,7 @@ StepReport Solver::outer_iteration(double inverse_dt) {
   const Residuals& r = report.residuals;
   if (!std::isfinite(r.u + r.v + r.p + r.k + r.epsilon))
     base::fail(base::Exit::diverged,
-               "simple: residuals {}; smaller flow.relax_velocity and flow.relax_pressure may hold it",
-               r.text());
+               "simple: residuals {}; smaller flow.relax_velocity and flow.relax_pressure may hold it", r.text());
   return report;
 }
 

@@ -100,8 +100,9 @@ std::optional<Approach> fit_approach(std::span<const double> t, std::span<const 
 /// First time S reaches `level`, linear between points; empty when it never does.
 std::optional<double> time_to_reach(std::span<const double> t, std::span<const double> S, double level);
 
-/// Mean of S over the last `window` when the means of its two halves differ by at most `change`: single grains make S jump by
-/// d/D from line to line, so its range says nothing about a trend.  Empty before, or when the record is shorter.
+/// Mean of S over the last `window` when the means of its two halves differ by at most `change`: single grains make S
+/// jump by d/D from line to line, so its range says nothing about a trend.  Empty before, or when the record is
+/// shorter.
 std::optional<double> equilibrium(std::span<const double> t, std::span<const double> S, double window, double change);
 
 }  // namespace livebed::run
