@@ -103,7 +103,7 @@ TEST(schema, preset_mbs2d_is_the_paper_and_livebed_is_not) {
   EXPECT_EQ(ours.grains.inertia, grains::Inertia::sphere);
   EXPECT_EQ(ours.grains.tension, grains::Tension::none);
   EXPECT_EQ(ours.grains.friction_limit, grains::FrictionLimit::total_force);
-  EXPECT_EQ(ours.grains.floor, grains::Floor::plane);
+  EXPECT_EQ(ours.grains.floor, grains::Floor::grains);
   EXPECT_EQ(ours.grains.spread, 0.05);
   EXPECT_EQ(ours.grains.restitution, 0.3);
   EXPECT_EQ(ours.flow.convection, flow::Convection::bounded);
