@@ -68,7 +68,7 @@ struct Params {
   double relax_velocity = 0.7;       ///< under-relaxation of simple [-]
   double relax_pressure = 0.3;
   double relax_turbulence = 0.7;
-  double tolerance = 1e-4;    ///< of simple: outer iterations end when all scaled residuals are below it [-]
+  double tolerance = 1e-3;    ///< of simple: outer iterations end when all scaled residuals are below it [-]
   int outer_iterations = 50;  ///< most of them in a step
   MeshParams mesh;
   PipeParams pipe;
