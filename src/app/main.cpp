@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
   app::add_keys(program, chosen);
   app::add_report(program, chosen);
   app::add_bench(program, chosen);
+  app::add_validate(program, chosen);
 
   try {
     program.parse(argc, argv);

@@ -18,5 +18,6 @@ void add_check(CLI::App& app, Action& chosen);
 void add_keys(CLI::App& app, Action& chosen);
 void add_report(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
+void add_validate(CLI::App& app, Action& chosen);
 
 }  // namespace livebed::app

@@ -16,9 +16,9 @@ struct Box {
 /// when it would leave the grid's inside.
 Box box_around_pipe(const Mesh& mesh, double half);
 
-/// What comes in through the box's sides per metre of pipe and second: momentum, pressure and friction [N/m].  In steady
-/// flow without grains this is the force on the pipe; otherwise it is that and the rate of `momentum_inside`.  No side
-/// may cut the pipe.
+/// What comes in through the box's sides per metre of pipe and second: momentum, pressure and friction [N/m].  In
+/// steady flow without grains this is the force on the pipe; otherwise it is that and the rate of `momentum_inside`. No
+/// side may cut the pipe.
 base::Vec2 momentum_inflow(const Params& params, const Mesh& mesh, const State& state, const Box& box);
 
 /// Momentum of the water in the box [N s/m].

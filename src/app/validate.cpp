@@ -1,0 +1,61 @@
+#include <fmt/core.h>
+#include <memory>
+
+#include "app/verbs.hpp"
+#include "case/faults.hpp"
+#include "io/file.hpp"
+#include "validate/result.hpp"
+
+namespace livebed::app {
+
+namespace {
+
+base::Exit validate_one(const validate::Case& which, const std::string& folder, bool json) {
+  const validate::Result result = which.run([json](const std::string& line) {
+    std::FILE* to = json ? stderr : stdout;
+    fmt::print(to, "{}\n", line);
+    std::fflush(to);
+  });
+  const std::string text = validate::to_json(result);
+  io::make_folder(folder);
+  io::write_atomically(io::Path(folder) / fmt::format("{}.json", which.name), text);
+  for (const validate::Picture& picture : result.pictures)
+    io::write_atomically(io::Path(folder) / picture.name, picture.svg);
+  if (json) fmt::print("{}", text);
+  for (const validate::Row& row : result.rows)
+    if (!row.pass())
+      fmt::print(stderr, "outside its target: {} = {:.5g} {}, wanted {:.5g} to {:.5g} ({})\n", row.name, row.value,
+                 row.unit, row.low, row.high, row.reference);
+  return result.pass() ? base::Exit::ok : base::Exit::comparison;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, Action& chosen) {
+  struct Options {
+    std::string name, folder = "docs/validation";
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      app.add_subcommand("validate", "hold whole flows against the literature; without NAME, list what there is");
+  verb->add_option("NAME", options->name, "what to validate");
+  verb->add_option("--out", options->folder, "folder for NAME.json and its figures")->capture_default_str();
+  verb->add_flag("--json", options->json, "print the numbers as JSON");
+  verb->callback([options, &chosen] {
+    chosen = [options] {
+      std::vector<std::string> names;
+      for (const validate::Case& c : validate::cases()) {
+        if (options->name == c.name) return validate_one(c, options->folder, options->json);
+        names.emplace_back(c.name);
+      }
+      if (!options->name.empty())
+        base::fail(base::Exit::command_line, "{} is nothing to validate; there are {}", options->name,
+                   casefile::listed(names));
+      for (const validate::Case& c : validate::cases()) fmt::print("{:10} {}\n", c.name, c.says);
+      return base::Exit::ok;
+    };
+  });
+}
+
+}  // namespace livebed::app

@@ -1,0 +1,10 @@
+#pragma once
+#include <string_view>
+
+/// Tables of data/ that flows are held against, with their source headers; part of the program.
+namespace livebed::validate {
+
+extern const std::string_view ghia_u, ghia_v;    ///< data/ghia1982_cavity_u.csv, _v.csv
+extern const std::string_view cylinder_laminar;  ///< data/cylinder_laminar.csv
+
+}  // namespace livebed::validate

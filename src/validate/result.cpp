@@ -1,0 +1,56 @@
+#include "validate/result.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/version.hpp"
+#include "validate/cavity.hpp"
+#include "validate/cylinder.hpp"
+#include "validate/duct.hpp"
+
+namespace livebed::validate {
+
+namespace {
+
+/// FNV-1a of 64 bits.
+std::string hash(const std::string& text) {
+  std::uint64_t h = 14695981039346656037ull;
+  for (const unsigned char c : text) h = (h ^ c) * 1099511628211ull;
+  return fmt::format("{:016x}", h);
+}
+
+}  // namespace
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = {
+      {"cavity", "lid-driven cavity, Re 100 and 1000, against Ghia et al. (1982)", cavity},
+      {"cylinder", "free cylinder, Re 20, 40 and 100: drag, bubble, shedding against the literature", cylinder},
+      {"duct", "cylinder in a channel, Re 20: drag and lift against Schaefer and Turek (1996), order of the cut cells",
+       duct},
+  };
+  return all;
+}
+
+bool Result::pass() const {
+  return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.pass(); });
+}
+
+std::string to_json(const Result& result) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Row& row : result.rows) {
+    nlohmann::ordered_json entry = {{"name", row.name}, {"value", row.value}, {"unit", row.unit}};
+    entry["target"] = row.judged() ? nlohmann::ordered_json{row.low, row.high} : nlohmann::ordered_json(nullptr);
+    entry["pass"] = row.judged() ? nlohmann::ordered_json(row.pass()) : nlohmann::ordered_json(nullptr);
+    entry["reference"] = row.reference;
+    entry["setup"] = row.setup;
+    entry["setup_hash"] = hash(row.setup);
+    entry["commit"] = std::string(base::commit());
+    entry["wall_s"] = row.seconds;
+    list.push_back(entry);
+  }
+  return list.dump(1) + "\n";
+}
+
+}  // namespace livebed::validate

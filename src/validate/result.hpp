@@ -1,0 +1,51 @@
+#pragma once
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Comparisons of whole flows with the literature: `livebed validate NAME`.
+namespace livebed::validate {
+
+/// One number that came out and what it is held against.
+struct Row {
+  std::string name;
+  double value = 0;
+  std::string unit{};
+  double low = std::numeric_limits<double>::quiet_NaN();  ///< target, both ends included; NaN = told, not judged
+  double high = low;
+  std::string reference{};  ///< where the target is from
+  std::string setup{};      ///< what was run, in one line; its hash goes into the file
+  double seconds = 0;       ///< wall time of that run
+
+  bool judged() const { return low == low; }
+  bool pass() const { return !judged() || (value >= low && value <= high); }
+};
+
+struct Picture {
+  std::string name;  ///< file name without folder
+  std::string svg;
+};
+
+struct Result {
+  std::vector<Row> rows;
+  std::vector<Picture> pictures;
+  bool pass() const;
+};
+
+/// Called with a line about progress now and then.
+using Tell = std::function<void(const std::string&)>;
+
+struct Case {
+  std::string_view name, says;
+  Result (*run)(const Tell& tell);
+};
+
+/// Everything that can be validated, in the order in which a list shows it.
+const std::vector<Case>& cases();
+
+/// The rows as a JSON list, each with the commit of the program and the hash of its setup.
+std::string to_json(const Result& result);
+
+}  // namespace livebed::validate
