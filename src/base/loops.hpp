@@ -14,8 +14,8 @@ int threads();
 /// Processors this program may run on.
 int available_threads();
 
-/// One item, always by the same machine code: inlined twice, into the serial and into the parallel loop, the compiler
-/// may order the additions of a sum differently in each.
+/// One item, always by the same machine code: inlined into a loop over a share, the compiler may treat the last items
+/// of a share differently from the others, and shares depend on the number of threads.
 template <class Body>
 #ifdef __clang__
 [[gnu::noinline]]
@@ -45,7 +45,7 @@ void for_each_item(int begin, int end, Body&& body, bool alone = false) {
         const auto first = [&](int s) {
           return r.begin + static_cast<int>(static_cast<long long>(r.count) * s / shares);
         };
-        for (int k = first(share); k < first(share + 1); ++k) r.body(k);
+        for (int k = first(share); k < first(share + 1); ++k) do_item(r.body, k);
       },
       &range, alone || end - begin < 2);
 }

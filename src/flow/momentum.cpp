@@ -105,18 +105,24 @@ void assemble_momentum(const Mesh& m, const Boundary& b, const Params& params, d
                  *p_below = s.p.row(j - 1);
     double *rhs = w.change.row(j), *rate = c.rate.row(j), *factor = c.factor.row(j), *response = c.response.row(j);
     double* outer = w.scratch.row(j);  // forces from the other component and from the pressure
+    // The other component's stress, d/dy (Gamma dv/dx) and d/dx (Gamma du/dy), fades with the openings of the two faces
+    // it is a difference of: beside a sliver that difference is no gradient, and as an explicit force it would drive
+    // the flow through the sliver instead of slowing it.
+    const Field& opening = c.is_u ? m.aperture_y : m.aperture_x;
+    const double *open = opening.row(j), *open_above = opening.row(j + 1), *open_below = opening.row(j - 1);
     if (c.is_u) {
-      // d/dy (Gamma dv/dx) over the volume, and the pressure on its sides.
       const double *v = crossing.row(j), *v_above = crossing.row(j + 1), h = at.hy[j + 2], h_above = at.hy[j + 3];
       vector_loop(at.i0, at.i1, [&](int i) {
-        const double stress = gy_above[i] * h_above * (v_above[i] - v_above[i - 1]) - gy[i] * h * (v[i] - v[i - 1]);
+        const double stress =
+            open_above[i - 1] * open_above[i] * gy_above[i] * h_above * (v_above[i] - v_above[i - 1]) -
+            open[i - 1] * open[i] * gy[i] * h * (v[i] - v[i - 1]);
         outer[i] = (stress - P[i] / rho * (p[i] - p[i - 1])) / hx_p[i];
       });
     } else {
       const double *v = crossing.row(j), *v_below = crossing.row(j - 1), scale = 1.0 / m.dy_face(j);
       vector_loop(at.i0, at.i1, [&](int i) {
-        const double stress =
-            gx[i + 1] * hx_u[i + 1] * (v[i + 1] - v_below[i + 1]) - gx[i] * hx_u[i] * (v[i] - v_below[i]);
+        const double stress = open[i + 1] * open_below[i + 1] * gx[i + 1] * hx_u[i + 1] * (v[i + 1] - v_below[i + 1]) -
+                              open[i] * open_below[i] * gx[i] * hx_u[i] * (v[i] - v_below[i]);
         outer[i] = (stress - P[i] / rho * (p[i] - p_below[i])) * scale;
       });
     }

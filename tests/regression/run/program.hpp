@@ -51,9 +51,8 @@ class Program : public testing::Test {
 protected:
   /// Runs it to its end; the words before it are for the shell.
   Result run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + folder().string() + "' && " + before + " OMP_WAIT_POLICY=passive '" +
-                                LIVEBED_PROGRAM + "' " + arguments + " >'" + (root_ / "out").string() + "' 2>'" +
-                                (root_ / "err").string() + "'";
+    const std::string command = "cd '" + folder().string() + "' && " + before + " '" + LIVEBED_PROGRAM + "' " +
+                                arguments + " >'" + (root_ / "out").string() + "' 2>'" + (root_ / "err").string() + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(root_ / "out"), content(root_ / "err")};
   }
