@@ -89,6 +89,7 @@ base::Exit run_with(const std::filesystem::path& folder, const RunArguments& arg
     if (log.is_open()) log << clock_time() << ' ' << line << std::endl;
   };
   run::Options options;
+  options.note = note;
   options.wall_limit = arguments.wall_limit;
   options.say = [&](const std::string& line) {
     progress.clear();

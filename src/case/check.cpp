@@ -232,6 +232,9 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
   }
 
   // water
+  keys({"flow.steady", "flow.algorithm"})
+      .fault_if(c.flow.steady && c.flow.algorithm != flow::Algorithm::simple,
+                "flow.steady = true needs flow.algorithm = \"simple\": the projection has no steady mode");
   keys({"flow.floor_roughness", "flow.floor"})
       .fault_if(c.flow.floor != flow::Wall::rough && c.flow.floor_roughness > 0,
                 "flow.floor_roughness = {} m contradicts flow.floor, which is not \"rough\"", c.flow.floor_roughness);

@@ -61,6 +61,10 @@ base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::file
       const std::string good = saved.empty() ? "none was written yet" : saved.back().string();
       base::fail(fault.code(), "{}; last good checkpoint: {}", fault.what(), good);
     }
+    const flow::StepReport& flow_step = sim.last_report();
+    if (options.note && flow_step.outer_iterations > 0)
+      options.note(fmt::format("t = {:.5g} s: {} outer iterations, residuals {}", sim.time(),
+                               flow_step.outer_iterations, flow_step.residuals.text()));
     if (sim.clock().released) observers.observe(sim);
     if (stop_requested) return finish("stopped by a signal", base::Exit::signal);
     if (limit_reached()) return finish("stopped by the wall-time limit", base::Exit::stopped_by_limit);

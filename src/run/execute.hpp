@@ -11,8 +11,9 @@ namespace livebed::run {
 
 /// How a run is to be done; nothing of it changes its numbers.
 struct Options {
-  double wall_limit = 0;                             ///< stop with a checkpoint after this wall time [s]; 0 = none
-  std::function<void(const std::string& line)> say;  ///< one line to the user and the log
+  double wall_limit = 0;                              ///< stop with a checkpoint after this wall time [s]; 0 = none
+  std::function<void(const std::string& line)> say;   ///< one line to the user and the log
+  std::function<void(const std::string& line)> note;  ///< one line to the log alone; may be empty
   std::function<void(double t, double end, double S_over_D, double speed, double left)> progress;  ///< every few steps
 };
 

@@ -48,6 +48,8 @@ const Bad bad_cases[] = {
      "bad.toml:4: unknown key coupling.drg; did you mean coupling.drag (paper)?"},
     {"key_in_the_wrong_table", "[flow]\nrestitution = 0.5\n",
      "bad.toml:4: unknown key flow.restitution; did you mean contact.restitution?"},
+    {"steady_projection", "[flow]\nsteady = true\n",
+     "bad.toml:4: flow.steady = true needs flow.algorithm = \"simple\": the projection has no steady mode"},
     {"unknown_key_like_none", "speed_of_light = 3e8\n", "bad.toml:3: unknown key current.speed_of_light"},
     {"unknown_table", "[grians]\ndiameter = 1\n", "bad.toml:3: unknown table [grians]; did you mean [grains]?"},
     {"nested_table", "[flow.current]\ntheta = 0.3\n",
