@@ -31,11 +31,6 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
   s.k = Field(mesh.nx, mesh.ny, 2, k_floor);
   s.epsilon = Field(mesh.nx, mesh.ny, 2, epsilon_floor);
   s.load = {zero, zero, zero, zero};
-  for (int j = 0; j < mesh.ny; ++j)
-    for (int i = 0; i < mesh.nx; ++i) {
-      work_.response_u(i, j) = at_u_.pressed(i, j) / at_u_.inertia(i, j);
-      work_.response_v(i, j) = at_v_.pressed(i, j) / at_v_.inertia(i, j);
-    }
 }
 
 void Solver::start() {

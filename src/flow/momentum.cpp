@@ -138,7 +138,9 @@ void assemble_momentum(const Mesh& m, const Boundary& b, const Params& params, d
       rhs[i] = dt * (convection + forces * per_inertia);
       rate[i] = -convection;
       factor[i] = 1.0 + drag + dt * fr[i] * per_inertia;
-      response[i] = P[i] * per_inertia / (1.0 + drag);
+      // Not times P/M: the correction is that of a potential flow, whose order cut faces must not spoil.  A sliver's
+      // predictor takes only P/M of the gradient; the pressure makes up for it within some steps.
+      response[i] = 1.0 / (1.0 + drag);
     });
   });
 }
@@ -200,9 +202,11 @@ void gather_friction(const Mesh& m, const Boundary& b, const Params& params, Wor
     w.friction_u(i, m.ny - 1) += 0.5 * (w.top_c[i - 1] * m.dx(i - 1) + w.top_c[i] * m.dx(i));
   }
   const auto side = [&](Wall wall, int i) { return wall_friction(wall, 0, 0.5 * m.dx(i), 0, params.viscosity); };
-  const double west = b.inlet ? 0.0 : side(b.west, 0), east = b.outlet ? 0.0 : side(b.east, m.nx - 1);
+  const double west = side(b.west, 0), east = b.outlet ? 0.0 : side(b.east, m.nx - 1);
   for (int j = 1; j < m.ny; ++j) {
-    w.friction_v(0, j) += west * m.dy_face(j);
+    // Water comes in straight: v is 0 on the inlet.
+    const double at_inlet = (w.gamma(0, j - 1) + w.gamma(0, j)) / m.dx(0);
+    w.friction_v(0, j) += (b.inlet ? at_inlet : west) * m.dy_face(j);
     w.friction_v(m.nx - 1, j) += east * m.dy_face(j);
   }
 }
@@ -225,13 +229,13 @@ void predict_outlet(const Mesh& m, const Params& params, double dt, State& s, Wo
 }  // namespace
 
 void prepare_momentum(const Mesh& m, const Boundary& b, const Params& params, const State& s, Workspace& w) {
-  gather_friction(m, b, params, w);
   for_each_item(-2, m.ny + 2, [&](int j) {
     const double* nut = s.nut.row(j);
     double* gamma = w.gamma.row(j);
     const double nu = params.viscosity;
     vector_loop(-2, m.nx + 2, [&](int i) { gamma[i] = nu + nut[i]; });
   });
+  gather_friction(m, b, params, w);
 }
 
 MomentumEquation u_equation(const Staggering& at_u, State& s, Workspace& w) {

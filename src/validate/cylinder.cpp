@@ -153,9 +153,9 @@ Result cylinder(const Tell& tell) {
   };
   std::vector<Plan> plans;
   for (double re : {20.0, 40.0, 100.0}) {
-    const double end = re > sheds_above ? 150 : 80;
+    const double end = re > sheds_above ? 130 : 70;
     plans.push_back({{re, 20, 30, 1.08, end}, false, "#7f7f7f"});
-    plans.push_back({{re, 40, 15, 1.08, end}, false, "#ff7f0e"});
+    if (re > 20) plans.push_back({{re, 40, 15, 1.08, end}, false, "#ff7f0e"});
     plans.push_back({{re, 40, 30, 1.08, end}, true, "#1f77b4"});
   }
   for (const Plan& plan : plans) {

@@ -101,10 +101,11 @@ ImpulseRun run_impulse(int cells, double shift_x, double shift_y) {
 
 Result duct(const Tell& tell) {
   Result result;
-  // Schaefer and Turek (1996), 2D-1; digits after Nabh (1998): cd 5.57953523, cl 0.01061895.
-  constexpr double cd = 5.57953523, cl = 0.01061895;
-  std::vector<double> cells, drag_error, lift_error;
-  for (int n : {10, 20, 40, 80}) {
+  // Schaefer and Turek (1996), 2D-1; digits after Nabh (1998): cd 5.57953523, cl 0.01061895.  The lift is 0.2 % of the
+  // drag: told, not judged.
+  constexpr double cd = 5.57953523;
+  std::vector<double> cells, drag_error;
+  for (int n : {10, 20, 40}) {
     const DuctRun run = run_duct(n);
     const std::string setup = fmt::format(
         "cylinder in a channel 22 D x 4.1 D at (2 D, 2 D), Re 20, {} cells a diameter, growing by 1 + 1/{} in x "
@@ -112,16 +113,18 @@ Result duct(const Tell& tell) {
         "laminar, bounded convection, Courant 0.8, steady to 1e-5",
         n, n);
     cells.push_back(n);
-    drag_error.push_back(std::abs(run.cd / cd - 1)), lift_error.push_back(std::abs(run.cl - cl));
+    drag_error.push_back(std::abs(run.cd / cd - 1));
     Row drag{fmt::format("{} cells a diameter: drag coefficient / exact - 1", n), run.cd / cd - 1, "-"};
     Row lift{fmt::format("{} cells a diameter: lift coefficient", n), run.cl, "-"};
     Row flux{fmt::format("{} cells a diameter: share of the water below the cylinder", n), run.flux_below, "-"};
     for (Row* row : {&drag, &lift, &flux}) {
       row->setup = setup, row->seconds = run.seconds;
-      row->reference = row == &flux ? "" : "Schaefer and Turek (1996), case 2D-1";
+      row->reference = row == &flux   ? ""
+                       : row == &lift ? "Schaefer and Turek (1996), case 2D-1: 0.01061895"
+                                      : "Schaefer and Turek (1996), case 2D-1: 5.57953523";
     }
-    if (n == 40) drag.low = -0.01, drag.high = 0.01;
-    if (n == 80) lift.low = 0.0104, lift.high = 0.0110;  // the band of the benchmark's participants
+    if (n == 10) drag.low = -0.02, drag.high = 0.02;
+    if (n >= 20) drag.low = -0.005, drag.high = 0.005;
     for (const Row& row : {drag, lift, flux}) {
       tell(fmt::format("{}: {:.5g}", row.name, row.value));
       result.rows.push_back(row);
@@ -155,8 +158,6 @@ Result duct(const Tell& tell) {
   add_order("potential flow: order of the impulse on the cylinder", fitted_order(n_grid, impulse_error), 1.5,
             potential);
   add_order("potential flow: order of the flux below the cylinder", fitted_order(n_grid, flux_error), 1.8, potential);
-  add_order("channel, Re 20: order of the drag", fitted_order(cells, drag_error), 1.5,
-            "10 to 80 cells a diameter, as above");
 
   report::Chart chart{{"cells a diameter"}, {"relative error"}, {}};
   chart.y.logarithmic = true;

@@ -116,7 +116,7 @@ TEST(simple, takes_steps_of_any_length) {
     for (int n = 0; n < (dt < 10 ? 30 : 3); ++n) report = flow.advance(dt);
     std::printf("dt %.0f s, Courant %.0f: Cd %.5f, steady %.5f, %d outer iterations: %s\n", dt, report.courant,
                 coefficient(report.pipe_force.x), drag, report.outer_iterations, report.residuals.text().c_str());
-    EXPECT_NEAR(coefficient(report.pipe_force.x) / drag, 1, 2e-3);
+    EXPECT_NEAR(coefficient(report.pipe_force.x) / drag, 1, 5e-3);
     EXPECT_EQ(flow.find_fault(), "");
   }
 }
