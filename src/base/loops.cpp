@@ -94,7 +94,6 @@ void set_threads(int n) {
 }
 
 int threads() { return thread_count; }
-int available_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void on_all_threads(void (*work)(void* data, int share, int shares), void* data, bool alone) {
   if (alone || !team || Team::inside) return work(data, 0, 1);

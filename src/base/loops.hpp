@@ -11,8 +11,6 @@ namespace livebed::base {
 /// Number of threads that parallel loops use; set once at start-up.  Throws Fault (command line) for n < 1.
 void set_threads(int n);
 int threads();
-/// Processors this program may run on.
-int available_threads();
 
 /// One item, always by the same machine code: inlined into a loop over a share, the compiler may treat the last items
 /// of a share differently from the others, and shares depend on the number of threads.
