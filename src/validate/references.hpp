@@ -5,6 +5,7 @@
 namespace livebed::validate {
 
 extern const std::string_view ghia_u, ghia_v;    ///< data/ghia1982_cavity_u.csv, _v.csv
+extern const std::string_view channel_dns;       ///< data/channel_dns_retau180.csv
 extern const std::string_view cylinder_laminar;  ///< data/cylinder_laminar.csv
 
 }  // namespace livebed::validate

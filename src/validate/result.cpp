@@ -7,6 +7,7 @@
 
 #include "base/version.hpp"
 #include "validate/cavity.hpp"
+#include "validate/channel.hpp"
 #include "validate/cylinder.hpp"
 #include "validate/duct.hpp"
 
@@ -29,6 +30,7 @@ const std::vector<Case>& cases() {
       {"cylinder", "free cylinder, Re 20, 40 and 100: drag, bubble, shedding against the literature", cylinder},
       {"duct", "cylinder in a channel, Re 20: drag and lift against Schaefer and Turek (1996), order of the cut cells",
        duct},
+      {"channel", "open channel, each closure against the log law and direct numerical simulation", channel},
   };
   return all;
 }
