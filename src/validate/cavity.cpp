@@ -6,7 +6,7 @@
 
 #include "base/fault.hpp"
 #include "io/table.hpp"
-#include "report/chart.hpp"
+#include "validate/picture.hpp"
 #include "validate/references.hpp"
 
 namespace livebed::validate {
@@ -111,7 +111,7 @@ Result cavity(const Tell& tell) {
       ++k;
     }
   }
-  result.pictures = {{"cavity_u.svg", report::svg(along_y)}, {"cavity_v.svg", report::svg(along_x)}};
+  result.pictures = {{"cavity_u.svg", picture(along_y)}, {"cavity_v.svg", picture(along_x)}};
   return result;
 }
 

@@ -9,7 +9,7 @@
 #include "flow/constants.hpp"
 #include "flow/profiles.hpp"
 #include "io/table.hpp"
-#include "report/chart.hpp"
+#include "validate/picture.hpp"
 #include "validate/references.hpp"
 
 namespace livebed::validate {
@@ -128,9 +128,9 @@ Result channel(const Tell& tell) {
     }
     add("friction velocity over that of the inlet's log law", run.re_tau / model.re_tau, "-", 0, "");
   }
-  result.pictures = {{"channel_dns_u.svg", report::svg(low)},
-                     {"channel_dns_k.svg", report::svg(energy)},
-                     {"channel_log_law.svg", report::svg(high)}};
+  result.pictures = {{"channel_dns_u.svg", picture(low)},
+                     {"channel_dns_k.svg", picture(energy)},
+                     {"channel_log_law.svg", picture(high)}};
   return result;
 }
 

@@ -9,7 +9,7 @@
 #include "base/math.hpp"
 #include "flow/momentum_balance.hpp"
 #include "io/table.hpp"
-#include "report/chart.hpp"
+#include "validate/picture.hpp"
 #include "validate/references.hpp"
 
 namespace livebed::validate {
@@ -186,7 +186,7 @@ Result cylinder(const Tell& tell) {
     add("rms lift coefficient", run.cl_rms, "-", "100,rms Cl");
     history.curves.push_back({fmt::format("{} cells, {} D", c.cells, c.half), plan.colour, run.t, run.lift});
   }
-  result.pictures = {{"cylinder_lift.svg", report::svg(history)}};
+  result.pictures = {{"cylinder_lift.svg", picture(history)}};
   return result;
 }
 

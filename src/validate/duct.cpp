@@ -6,7 +6,7 @@
 
 #include "base/fault.hpp"
 #include "base/math.hpp"
-#include "report/chart.hpp"
+#include "validate/picture.hpp"
 
 namespace livebed::validate {
 
@@ -164,7 +164,7 @@ Result duct(const Tell& tell) {
   chart.curves = {{"drag, channel Re 20", "#1f77b4", cells, drag_error},
                   {"impulse, potential flow", "#d62728", n_grid, impulse_error},
                   {"flux below, potential flow", "#2ca02c", n_grid, flux_error}};
-  result.pictures = {{"duct_convergence.svg", report::svg(chart)}};
+  result.pictures = {{"duct_convergence.svg", picture(chart)}};
   return result;
 }
 
