@@ -10,7 +10,12 @@ using base::Field;
 using base::for_each_item;
 using base::vector_loop;
 
-Workspace::Workspace(const Mesh& m) : wall_u(share_wall(m, true)), wall_v(share_wall(m, false)), rows(m) {
+Workspace::Workspace(const Mesh& m)
+    : handed_u(hand_on(m, true)),
+      handed_v(hand_on(m, false)),
+      wall_u(share_wall(m, true)),
+      wall_v(share_wall(m, false)),
+      rows(m) {
   const Field f(m.nx, m.ny);
   face = {f, f, f, f};
   gamma = wall_c = base_u = base_v = friction_u = friction_v = change = scratch = base = f;
@@ -92,6 +97,8 @@ void assemble_momentum(const Mesh& m, const Boundary& b, const Params& params, d
   Conductance& g = w.conductance;
   const double rho = params.density;
   convect(m, at, params.convection, w.face, c.value, c.rate, w.gamma, lead, w.rows, w.change);
+  for (const HandedOn& h : c.is_u ? w.handed_u : w.handed_v)
+    w.change(h.to_i, h.to_j) += h.share * w.change(h.from_i, h.from_j);
   conduct(m, c, w.gamma, g);
   const Field& crossing = c.is_u ? w.face.v : w.face.u;  // the other component, centred in time
   const double* hx_u = at.hx.data() + 2;
@@ -182,21 +189,22 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
 }
 
 /// Wall friction of floor, lid, closed sides and pipe gathered on the volumes of u and v.
-void gather_friction(const Mesh& m, const Boundary& b, const Params& params, Workspace& w) {
+void gather_friction(const Mesh& m, const Boundary& b, const Params& params, const State& s, Workspace& w) {
   w.friction_u.fill(0.0);
   w.friction_v.fill(0.0);
-  const auto at_pipe = [&](std::vector<WallPart>& wall, int sx, int sy, Field& friction) {
+  const auto at_pipe = [&](std::vector<WallPart>& wall, bool is_u, Field& friction) {
     for (WallPart& part : wall) {
-      // A viscous layer is measured from the velocity itself; wall functions from the middle of the cell, where they
-      // also set the turbulence.
-      part.friction = m.pipe.wall == Wall::no_slip
-                          ? part.length * params.viscosity / part.distance
-                          : part.before * w.wall_c(part.i - sx, part.j - sy) + part.after * w.wall_c(part.i, part.j);
-      friction(part.i, part.j) = part.friction;
+      // Speed where the component lives: itself and the mean of the other one's four values around.
+      const int i = part.i, j = part.j, i_b = is_u ? i - 1 : i + 1, j_b = is_u ? j + 1 : j - 1;
+      const Field &own = is_u ? s.u : s.v, &other = is_u ? s.v : s.u;
+      const double across = 0.25 * (other(i, j) + other(i_b, j) + other(i, j_b) + other(i_b, j_b));
+      part.friction = part.length * wall_friction(params.closure, m.pipe.wall, std::hypot(own(i, j), across),
+                                                  part.distance, m.pipe.roughness, params.viscosity);
+      friction(i, j) = part.friction;
     }
   };
-  at_pipe(w.wall_u, 1, 0, w.friction_u);
-  at_pipe(w.wall_v, 0, 1, w.friction_v);
+  at_pipe(w.wall_u, true, w.friction_u);
+  at_pipe(w.wall_v, false, w.friction_v);
   for (int i = 1; i < m.nx; ++i) {
     w.friction_u(i, 0) += 0.5 * (w.floor_c[i - 1] * m.dx(i - 1) + w.floor_c[i] * m.dx(i));
     w.friction_u(i, m.ny - 1) += 0.5 * (w.top_c[i - 1] * m.dx(i - 1) + w.top_c[i] * m.dx(i));
@@ -235,7 +243,7 @@ void prepare_momentum(const Mesh& m, const Boundary& b, const Params& params, co
     const double nu = params.viscosity;
     vector_loop(-2, m.nx + 2, [&](int i) { gamma[i] = nu + nut[i]; });
   });
-  gather_friction(m, b, params, w);
+  gather_friction(m, b, params, s, w);
 }
 
 MomentumEquation u_equation(const Staggering& at_u, State& s, Workspace& w) {

@@ -7,8 +7,9 @@ namespace livebed::flow {
 
 /// Fields that one step needs besides the state; allocated once.
 struct Workspace {
-  FaceFlow face;                         ///< time-centred flow through the faces
-  base::Field gamma;                     ///< nu + nut at cell centres [m2/s]
+  FaceFlow face;      ///< time-centred flow through the faces
+  base::Field gamma;  ///< nu + nut at cell centres [m2/s]
+  std::vector<HandedOn> handed_u, handed_v;
   std::vector<WallPart> wall_u, wall_v;  ///< the pipe as u and v meet it
   base::Field wall_c;                    ///< friction factor x length of the pipe's surface in a cell [m2/s]
   std::vector<double> floor_c, top_c;    ///< friction factor of floor and lid above cell i [m/s]

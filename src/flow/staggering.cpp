@@ -122,13 +122,36 @@ std::vector<WallPart> share_wall(const Mesh& m, bool west) {
       const double length_before = m.wall_length(i - sx, j - sy), length_after = m.wall_length(i, j);
       if (open <= 0 || length_before + length_after <= 0) continue;
       WallPart part{i, j};
-      part.before = open / (open + aperture(i - sx, j - sy));
-      part.after = open / (open + aperture(i + sx, j + sy));
-      part.length = part.before * length_before + part.after * length_after;
+      part.length = open / (open + aperture(i - sx, j - sy)) * length_before +
+                    open / (open + aperture(i + sx, j + sy)) * length_after;
       part.distance = std::max(open_part(m, west, i, j).distance, wall_distance_least * std::min(m.dx(i), m.dy(j)));
       parts.push_back(part);
     }
   return parts;
+}
+
+std::vector<HandedOn> hand_on(const Mesh& m, bool west) {
+  std::vector<HandedOn> list;
+  const int sx = west ? 1 : 0, sy = 1 - sx;
+  const base::Field& aperture = west ? m.aperture_x : m.aperture_y;
+  const auto moves = [&](int i, int j) { return i >= sx && i < m.nx && j >= sy && j < m.ny && aperture(i, j) > 0; };
+  for (int j = sy; j < m.ny; ++j)
+    for (int i = sx; i < m.nx; ++i) {
+      if (aperture(i, j) > 0 || m.volume(i - sx, j - sy) + m.volume(i, j) <= 0) continue;
+      const std::size_t first = list.size();
+      double sum = 0;
+      const auto offer = [&](int to_i, int to_j, double open) {
+        if (open <= 0 || !moves(to_i, to_j)) return;
+        list.push_back({i, j, to_i, to_j, open});
+        sum += open;
+      };
+      const auto across_x = [&](int a, int b) { return m.aperture_x(a - sx, b - sy) + m.aperture_x(a, b); };
+      const auto across_y = [&](int a, int b) { return m.aperture_y(a - sx, b - sy) + m.aperture_y(a, b); };
+      offer(i - 1, j, across_x(i, j) * m.dy(j)), offer(i + 1, j, across_x(i + 1, j) * m.dy(j));
+      offer(i, j - 1, across_y(i, j) * m.dx(i)), offer(i, j + 1, across_y(i, j + 1) * m.dx(i));
+      for (std::size_t k = first; k < list.size(); ++k) list[k].share /= sum;
+    }
+  return list;
 }
 
 }  // namespace livebed::flow

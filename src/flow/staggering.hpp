@@ -8,11 +8,18 @@ namespace livebed::flow {
 /// The pipe's surface as one control volume of a velocity component meets it.  A cell's surface is shared by its two
 /// faces as their openings are, so that closed faces take none of it.
 struct WallPart {
-  int i = 0, j = 0;              ///< of the volume
-  double before = 0, after = 0;  ///< shares of the surface in cells (i - shift_x, j - shift_y) and (i, j) [-]
-  double length = 0;             ///< of all of it [m]
-  double friction = 0;           ///< factor x length at present [m2/s]
-  double distance = 0;           ///< mean distance of the open part of the volume's face from the pipe [m]
+  int i = 0, j = 0;     ///< of the volume
+  double length = 0;    ///< of the surface [m]
+  double distance = 0;  ///< mean distance of the open part of the volume's face from the pipe [m]
+  double friction = 0;  ///< friction factor x length at present [m2/s]
+};
+
+/// A volume whose own face is closed has no velocity; what the flow carries into it belongs to the open volumes beside
+/// it.  Without this the pipe would take momentum besides its pressure and friction.
+struct HandedOn {
+  int from_i = 0, from_j = 0;  ///< closed volume
+  int to_i = 0, to_j = 0;      ///< open neighbour
+  double share = 0;            ///< of the neighbour, by the open area between the two
 };
 
 /// Where a quantity lives on the grid: at cell centres, on west faces (u) or on south faces (v), with the control
@@ -40,5 +47,8 @@ struct Staggering {
 
 /// Every open volume of u (west faces) or v (south faces) that meets the pipe.
 std::vector<WallPart> share_wall(const Mesh& mesh, bool west);
+
+/// Every closed volume of u or v with water in it and open neighbours.
+std::vector<HandedOn> hand_on(const Mesh& mesh, bool west);
 
 }  // namespace livebed::flow

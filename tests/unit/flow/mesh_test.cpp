@@ -173,5 +173,27 @@ TEST(share_wall, gives_all_of_the_surface_to_open_faces) {
   }
 }
 
+TEST(hand_on, leaves_nothing_in_closed_volumes) {
+  const Mesh m = mesh_with_pipe(0.40713, 0.29871, 0.2, 1.1);
+  for (bool west : {true, false}) {
+    const base::Field& aperture = west ? m.aperture_x : m.aperture_y;
+    base::Field shares(m.nx, m.ny);
+    for (const HandedOn& h : hand_on(m, west)) {
+      EXPECT_EQ(aperture(h.from_i, h.from_j), 0);
+      EXPECT_GT(aperture(h.to_i, h.to_j), 0);
+      EXPECT_EQ(std::abs(h.to_i - h.from_i) + std::abs(h.to_j - h.from_j), 1);
+      shares(h.from_i, h.from_j) += h.share;
+    }
+    int closed = 0;
+    for (int j = 0; j < m.ny; ++j)
+      for (int i = 0; i < m.nx; ++i)
+        if (shares(i, j) > 0) {
+          EXPECT_NEAR(shares(i, j), 1, 1e-14);
+          ++closed;
+        }
+    EXPECT_GT(closed, 10);
+  }
+}
+
 }  // namespace
 }  // namespace livebed::flow
