@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "report/chart.hpp"
 
@@ -7,5 +8,13 @@ namespace livebed::validate {
 
 /// The chart as a file of its own: black on white, its legend below it.
 std::string picture(const report::Chart& chart);
+
+struct Panel {
+  std::string title;
+  report::Chart chart;
+};
+
+/// Charts of one size in rows of `columns`, each under its title, with the legend of the first below them.
+std::string panels(const std::vector<Panel>& all, int columns);
 
 }  // namespace livebed::validate

@@ -10,6 +10,7 @@
 #include "validate/channel.hpp"
 #include "validate/cylinder.hpp"
 #include "validate/duct.hpp"
+#include "validate/oner.hpp"
 
 namespace livebed::validate {
 
@@ -31,6 +32,8 @@ const std::vector<Case>& cases() {
       {"duct", "cylinder in a channel, Re 20: drag and lift against Schaefer and Turek (1996), order of the cut cells",
        duct},
       {"channel", "open channel, each closure against the log law and direct numerical simulation", channel},
+      {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, what sets St", oner},
+      {"oner-fine", "the same on the paper's 1500 x 260 cells: e/D 0.3 and 0, each closure", oner_fine},
   };
   return all;
 }
@@ -48,7 +51,7 @@ std::string to_json(const Result& result) {
     entry["reference"] = row.reference;
     entry["setup"] = row.setup;
     entry["setup_hash"] = hash(row.setup);
-    entry["commit"] = std::string(base::commit());
+    entry["commit"] = row.commit.empty() ? std::string(base::commit()) : row.commit;
     entry["wall_s"] = row.seconds;
     list.push_back(entry);
   }

@@ -18,6 +18,7 @@ struct Row {
   std::string reference{};  ///< where the target is from
   std::string setup{};      ///< what was run, in one line; its hash goes into the file
   double seconds = 0;       ///< wall time of that run
+  std::string commit{};     ///< of the program that made the run; empty = of this one
 
   bool judged() const { return low == low; }
   bool pass() const { return !judged() || (value >= low && value <= high); }

@@ -1,0 +1,15 @@
+#pragma once
+#include "validate/pipe_current.hpp"
+
+namespace livebed::validate {
+
+/// Finished runs stay here, below the folder the program is started in; a run that is there is not repeated.
+inline constexpr const char* kept_runs = "runs/validate/oner";
+
+/// Figures 3-8 of the paper on 540 x 94 cells: closures, gaps, depths, and what sets the Strouhal number.
+Result oner(const Tell& tell);
+
+/// The paper's grid, 1500 x 260: e/D 0.3 and 0, each closure, beside the usual grid.
+Result oner_fine(const Tell& tell);
+
+}  // namespace livebed::validate
