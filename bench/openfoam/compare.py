@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Livebed beside OpenFOAM on the case of setup.py: profiles, drag, shedding, shear on the bed.
+
+  compare.py BUILD OUT [NAME...]    BUILD: folder with mean_flow; OUT: folder of the runs, kept: what is there is not
+                                    run again; NAME: of the rows below, all when not given
+
+Prints a Markdown table; differences are against the finest OpenFOAM run of the same Reynolds number.
+"""
+import os
+import subprocess
+import sys
+
+import openfoam
+import results
+import setup
+from setup import D, H, STATIONS, U0, X_IN
+
+LENGTH = setup.X_OUT - X_IN
+EQUAL = dict(cell_x=LENGTH / 540, cell_y=H / 94)
+HALF = dict(cell_x=LENGTH / 1080, cell_y=H / 188)
+# The lowest row as high as that of EQUAL (1.858 mm), half as high elsewhere.
+HALF_ABOVE = dict(HALF, growth=1.2, fine_y_from=5.6e-3, fine_y_to=H)
+HIGH = 190000.0
+
+# name: (what runs, its options).  Means over 11 s or more, eleven periods; OpenFOAM's finer meshes start from the
+# coarser one's flow.
+RUNS = {
+    "OpenFOAM 9k": ("openfoam", dict(level="coarse", end=20, start=8)),
+    "OpenFOAM 20k": ("openfoam", dict(level="medium", end=14, start=3, source="OpenFOAM 9k")),
+    "OpenFOAM 52k": ("openfoam", dict(level="fine", end=13.5, start=2.5, source="OpenFOAM 20k")),
+    "OpenFOAM 9k, nutU": ("openfoam", dict(level="coarse", end=20, start=8, wall="nutU")),
+    "OpenFOAM 9k, Re 190000": ("openfoam", dict(level="coarse", end=20, start=8, reynolds=HIGH)),
+    "Livebed 540 x 94": ("livebed", dict(mesh=EQUAL, end=20, start=8)),
+    "Livebed 1080 x 186": ("livebed", dict(mesh=HALF_ABOVE, end=20, start=8)),
+    "Livebed 1080 x 188": ("livebed", dict(mesh=HALF, end=20, start=8)),
+    "Livebed 540 x 94, Re 190000": ("livebed", dict(mesh=EQUAL, end=20, start=8, reynolds=HIGH)),
+}
+REFERENCE = {9500.0: "OpenFOAM 52k", HIGH: "OpenFOAM 9k, Re 190000"}
+
+
+def folder(out, name):
+    return os.path.join(out, name.replace(",", "").replace(" ", "_"))
+
+
+def run(build, out, name):
+    kind, options = RUNS[name]
+    options = dict(options)
+    where, start = folder(out, name), options["start"]
+    if kind == "openfoam":
+        if "source" in options:
+            run(build, out, options["source"])
+            options["source"] = folder(out, options["source"])
+        openfoam.run_fitted(where, **options)
+        return results.openfoam(where, start)
+    if not os.path.exists(f"{where}/floor.csv"):
+        setup.use_reynolds(options.pop("reynolds", 9500.0))
+        os.makedirs(where, exist_ok=True)
+        options.pop("start")
+        setup.write_livebed(f"{where}/case.toml", **options)
+        subprocess.run([os.path.join(build, "mean_flow"), f"{where}/case.toml", "--from", str(start), "--out", where, "--at",
+                        *(str(s * D - X_IN) for s in STATIONS)], check=True, stdout=sys.stderr)
+    return results.livebed(where, start)
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    build, out = sys.argv[1:3]
+    names = sys.argv[3:] or list(RUNS)
+    os.makedirs(out, exist_ok=True)
+    print("| run | periods | St | mean Cd | mean Cl | rms Cl | largest bed shear, Pa | at x/D |"
+          " far upstream, Pa | rms of U - U_ref over U0, %, at x/D = "
+          + ", ".join(str(s) for s in STATIONS) + " |\n|" + "---|" * 10)
+    for name in names:
+        flow = run(build, out, name)
+        reference = run(build, out, REFERENCE[RUNS[name][1].get("reynolds", 9500.0)])
+        shear, place = flow.peak_shear()
+        strouhal = flow.strouhal()
+        away = ", ".join(f"{100 * results.rms_difference(flow, reference, s):.1f}" for s in STATIONS)
+        periods = strouhal * U0 / D * (flow.series[0][-1] - flow.series[0][0])
+        print(f"| {name} | {periods:.0f} | {strouhal:.3f} | {flow.mean(1):.3f} | {flow.mean(2):.3f} |"
+              f" {flow.rms_lift():.3f} | {shear:.3f} | {place:.2f} | {flow.far_shear():.4f} | {away} |", flush=True)
+
+
+main()

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Seconds a step and a simulated second, OpenFOAM and Livebed in turns.
+
+  speed.py BUILD OUT [--pairs N] [--only NAME]... [--openfoam-only | --livebed-only]
+
+OpenFOAM: equal Cartesian cells with the pipe as a staircase (2 PISO correctors, GAMG) at 540 x 94 and 1500 x 260; body-fitted
+at 52k (3 correctors, 1 non-orthogonal correction).  All start from a developed flow (the coarse body-fitted run of compare.py's
+kind, made in OUT when it is not there), linearUpwind for U, upwind for k and epsilon, Euler in time, Courant number 0.85 at
+the start.  Livebed: `livebed bench flow` on as many cells, Courant number 0.85.  1 and 2 cores.  Each line of the table:
+median (smallest to largest) over the pairs; the load average is told before each measurement.
+"""
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+
+import openfoam
+import setup
+
+# name: mesh, fixed step [s], steps before and in the measured stretch
+CASES = {
+    "cart50": (("cartesian", 540, 94), 4.5e-3, 8, 40),
+    "fit52": (("fitted", "fine"), 1.3e-3, 6, 25),
+    "cart390": (("cartesian", 1500, 260), 1.5e-3, 8, 10),
+}
+
+
+def developed(out):
+    case = f"{out}/developed"
+    openfoam.run_fitted(case, "coarse", end=10, start=9)
+    return case
+
+
+def prepare(out, name):
+    """Case folder of the name, mapped from the developed flow and cut in two for MPI; returns its number of cells."""
+    case, (mesh, step, _, _) = f"{out}/{name}", CASES[name]
+    if not os.path.exists(f"{case}/processor0"):
+        setup.use_reynolds(9500.0)
+        fitted = mesh[0] == "fitted"
+        setup.fitted_mesh(case, mesh[1]) if fitted else setup.cartesian_mesh(case, *mesh[1:])
+        setup.write_openfoam(case, correctors=3 if fitted else 2, non_orthogonal=1 if fitted else 0, end=100,
+                             scalars="upwind", time="Euler", step=step, fixed_step=True, processes=2)
+        openfoam.make_mesh(case)
+        openfoam.map_from(case, developed(out))
+        openfoam.call(case, "decomposePar")
+    with open(f"{case}/constant/polyMesh/owner") as f:
+        note = next(line for line in f if "nCells" in line)
+    return int(note.split("nCells:")[1].split()[0])
+
+
+def time_openfoam(out, name, cores):
+    """Seconds a step from the wall clock at the ends of steps, and the step and largest Courant number."""
+    _, step, skip, count = CASES[name]
+    command = ["pimpleFoam"]
+    if cores > 1:
+        command = ["mpirun", "-n", str(cores), "--oversubscribe", "--allow-run-as-root", "pimpleFoam", "-parallel"]
+    job = subprocess.Popen(command, cwd=f"{out}/{name}", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                           env=openfoam.environment())
+    ends, courant = [], 0.0
+    for line in job.stdout:
+        if line.startswith("Courant Number") and len(ends) >= skip:
+            courant = max(courant, float(line.split()[-1]))
+        if line.startswith("ExecutionTime"):
+            ends.append(time.time())
+            if len(ends) == skip + count:
+                break
+    job.terminate()
+    job.wait()
+    if len(ends) < skip + count:
+        sys.exit(f"OpenFOAM {name} ended after {len(ends)} steps")
+    return dict(seconds=(ends[-1] - ends[skip - 1]) / count, step=step, courant=courant)
+
+
+def time_livebed(build, cells, cores):
+    text = subprocess.run([os.path.join(build, "livebed"), "bench", "flow", "--json", "--cells", str(cells), "--threads",
+                           str(cores)], check=True, stdout=subprocess.PIPE, text=True).stdout
+    told = json.loads(text)
+    return dict(seconds=told["seconds_per_step"], step=told["step"], courant=told["courant"], cells=told["cells"],
+                commit=told["commit"])
+
+
+def middle(values):
+    return f"{statistics.median(values):.4g} ({min(values):.4g} to {max(values):.4g})"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build")
+    parser.add_argument("out")
+    parser.add_argument("--pairs", type=int, default=3)
+    parser.add_argument("--only", action="append", choices=CASES)
+    a = parser.parse_args()
+    os.makedirs(a.out, exist_ok=True)
+    print("| cells | cores | OpenFOAM, s a step | Courant | s a simulated second | Livebed, s a step | Courant |"
+          " s a simulated second | faster a step | a simulated second |\n|" + "---|" * 10)
+    commit = ""
+    for name in a.only or CASES:
+        cells = prepare(a.out, name)
+        # Of a body-fitted grid Livebed has no like: it runs on as many cells.
+        wanted = cells if name == "fit52" else CASES[name][0][1] * CASES[name][0][2]
+        for cores in (1, 2):
+            theirs, ours = [], []
+            for pair in range(a.pairs):
+                print(f"{name}, {cores} cores, pair {pair + 1}: load average {os.getloadavg()[0]:.2f}", file=sys.stderr)
+                theirs.append(time_openfoam(a.out, name, cores))
+                ours.append(time_livebed(a.build, wanted, cores))
+                print(f"  {theirs[-1]}\n  {ours[-1]}", file=sys.stderr)
+            commit = ours[0]["commit"]
+
+            def column(runs, of):
+                return [of(r) for r in runs]
+
+            def a_step(r):
+                return r["seconds"]
+
+            def a_second(r):
+                return r["seconds"] / r["step"]
+
+            ratios = [statistics.median(column(theirs, of)) / statistics.median(column(ours, of))
+                      for of in (a_step, a_second)]
+            print(f"| {name}: {cells}, {ours[0]['cells']} | {cores} | {middle(column(theirs, a_step))} |"
+                  f" {theirs[0]['courant']:.2f} | {middle(column(theirs, a_second))} | {middle(column(ours, a_step))} |"
+                  f" {ours[0]['courant']:.2f} | {middle(column(ours, a_second))} | {ratios[0]:.1f} | {ratios[1]:.1f} |",
+                  flush=True)
+    print(f"\nLivebed of commit {commit}.")
+
+
+main()
