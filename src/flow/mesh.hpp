@@ -21,7 +21,7 @@ struct Mesh {
   base::Field aperture_y;     ///< open fraction of the south face [-]
   base::Field volume;         ///< open fraction of the cell [-]
   base::Field wall_length;    ///< length of the pipe's surface inside the cell [m]
-  base::Field wall_distance;  ///< distance of the cell's fluid centroid from the pipe [m], in cells cut by it
+  base::Field wall_distance;  ///< of the cell's fluid centroid from the pipe [m]; negative inside, 0 without a pipe
 
   double dx(int i) const { return dx_[i + 2]; }
   double dy(int j) const { return dy_[j + 2]; }

@@ -80,6 +80,7 @@ void cut_pipe(Mesh& m) {
     }
   for (int j = 0; j < m.ny; ++j) {
     for (int i = 0; i < m.nx; ++i) {
+      m.wall_distance(i, j) = std::hypot(m.centre_x(i) - cx, m.centre_y(j) - cy) - r;
       if (m.volume(i, j) <= 0 || m.volume(i, j) >= 1) continue;
       m.wall_length(i, j) = base::norm(wall_vector(m, i, j));
       // Distance of the fluid's centroid, sampled; a quarter of the cell at least, so that a sliver's wall friction

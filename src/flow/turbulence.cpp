@@ -32,7 +32,7 @@ Field distance_from_walls(const Mesh& m, const Boundary& b) {
       if (pipe && m.wall_length(i, j) > 0)
         y = m.wall_distance(i, j);
       else if (pipe)
-        y = std::min(y, std::hypot(m.centre_x(i) - m.pipe.x, m.centre_y(j) - m.pipe.y) - 0.5 * m.pipe.diameter);
+        y = std::min(y, m.wall_distance(i, j));
       y = std::max(y, smallest);  // inside the pipe, where nothing is solved
     }
   return distance;
