@@ -70,7 +70,7 @@ std::string figure_snapshots(const Drawn& run) {
 
 std::string figure_velocity(const std::vector<Drawn>& runs) {
   std::vector<Panel> all;
-  constexpr double shown = 30;  // [D/U0]
+  constexpr double shown = 20;  // [D/U0]
   for (const Drawn& d : runs) {
     const double end = d.run->t.back();
     Panel panel{d.label, {{"t U0/D", end - shown, end}, {"u/U0"}, {}, 620, 240}};

@@ -11,6 +11,7 @@
 #include "validate/cylinder.hpp"
 #include "validate/duct.hpp"
 #include "validate/oner.hpp"
+#include "validate/step.hpp"
 
 namespace livebed::validate {
 
@@ -32,6 +33,8 @@ const std::vector<Case>& cases() {
       {"duct", "cylinder in a channel, Re 20: drag and lift against Schaefer and Turek (1996), order of the cut cells",
        duct},
       {"channel", "open channel, each closure against the log law and direct numerical simulation", channel},
+      {"step", "backward-facing step of Driver and Seegmiller (1985), each closure: reattachment, Cf, Cp, profiles",
+       step},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, what sets St", oner},
       {"oner-fine", "the same on the paper's 1500 x 260 cells: e/D 0.3 and 0, each closure", oner_fine},
   };
