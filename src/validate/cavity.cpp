@@ -26,6 +26,12 @@ double interpolate(double at, int n, Node&& node, Value&& value) {
   return (1 - f) * value(k - 1) + f * value(k);
 }
 
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
+  return largest;
+}
+
 }  // namespace
 
 CavityRun run_cavity(int reynolds, int n) {
@@ -91,6 +97,7 @@ Result cavity(const Tell& tell) {
   const std::vector<std::string> colours = {"#1f77b4", "#d62728"};
   int k = 0;
   for (int reynolds : {100, 1000}) {
+    CavityRun coarse;
     for (int n : {64, 128}) {
       const CavityRun run = run_cavity(reynolds, n);
       Row row{fmt::format("Re {}, {} x {}: largest difference on the centre lines", reynolds, n, n), run.worst,
@@ -103,7 +110,14 @@ Result cavity(const Tell& tell) {
       row.seconds = run.seconds;
       tell(fmt::format("{}: {:.4f} ({:.0f} s)", row.name, row.value, row.seconds));
       result.rows.push_back(row);
-      if (n != 128) continue;
+      if (n != 128) {
+        coarse = run;
+        continue;
+      }
+      Row change{fmt::format("Re {}: largest change at those points from 64 x 64 to 128 x 128 cells", reynolds),
+                 std::max(largest_difference(run.u, coarse.u), largest_difference(run.v, coarse.v)), "lid speed"};
+      change.setup = row.setup;
+      result.rows.push_back(change);
       along_y.curves.push_back({fmt::format("Re {}", reynolds), colours[k], run.u, run.y});
       along_y.curves.push_back({"Ghia et al.", colours[k], run.u_ghia, run.y, true});
       along_x.curves.push_back({fmt::format("Re {}", reynolds), colours[k], run.x, run.v});
