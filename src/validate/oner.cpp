@@ -67,6 +67,8 @@ void add_rows(const std::string& name, const PipeSetup& which, const PipeRun& ru
   if (!n.steady()) {
     add("Strouhal number of v 2 D behind the centre, with U0", n.strouhal_wake, "-");
     add("Strouhal number of the lift, with the inlet's speed at the axis", n.strouhal / run.axis_speed, "-");
+    add("Strouhal number of the lift, with that speed times depth/(depth - D)",
+        n.strouhal / run.axis_speed * (1 - 1 / which.depth), "-");
     add("Strouhal number over five periods, smallest", n.slowest, "-");
     add("Strouhal number over five periods, largest", n.fastest, "-");
     Row& periods = add("shedding periods in the record", n.periods, "-");
@@ -134,6 +136,7 @@ Result oner(const Tell& tell) {
   varied("3.5 D deep, hybrid scheme", [](PipeSetup& s) { s.convection = flow::Convection::hybrid; });
   varied("3.5 D deep, Courant 0.4", [](PipeSetup& s) { s.courant = 0.4; });
   varied("3.5 D deep, 270 x 48 cells", [](PipeSetup& s) { s.nx = 270, s.ny = 48; });
+  varied("3.5 D deep, 810 x 140 cells", [](PipeSetup& s) { s.nx = 810, s.ny = 140, s.record = 80; });
 
   for (const Model& m : models) {
     double before = 0;
