@@ -102,9 +102,9 @@ std::string title(const Model& model, const PipeSetup& s) {
 }
 
 /// One line for each closure.
-std::vector<Drawn> each_closure(Runs& runs, double gap, double depth) {
+std::vector<Drawn> each_closure(Runs& runs, double gap) {
   std::vector<Drawn> drawn;
-  for (const Model& m : models) drawn.push_back({m.name, m.colour, &runs(setup(m.closure, gap, depth)), gap});
+  for (const Model& m : models) drawn.push_back({m.name, m.colour, &runs(setup(m.closure, gap)), gap});
   return drawn;
 }
 
@@ -114,30 +114,12 @@ Result oner(const Tell& tell) {
   Result result;
   Runs runs(tell);
   const auto look = [&](const std::string& name, const PipeSetup& s) { add_rows(name, s, runs(s), tell, result); };
-  const auto look_each = [&](double gap, double depth) {
-    for (const Model& m : models) look(title(m, setup(m.closure, gap, depth)), setup(m.closure, gap, depth));
+  const auto look_each = [&](double gap) {
+    for (const Model& m : models) look(title(m, setup(m.closure, gap)), setup(m.closure, gap));
   };
-  look_each(0.3, box_depth), look_each(0.0, box_depth);
+  look_each(0.3), look_each(0.0);
   for (const auto& [gap, colour] : gaps)
-    if (gap != 0.3) look_each(gap, box_depth);
-  look_each(0.3, experiment_depth), look_each(0.0, experiment_depth);
-
-  // What sets the Strouhal number: one thing changed at a time, k-epsilon, e/D 0.3.
-  const PipeSetup base = setup(Closure::k_epsilon, 0.3);
-  const auto varied = [&](const std::string& what, auto&& change) {
-    PipeSetup s = base;
-    change(s);
-    look("k-epsilon, e/D 0.3: " + what, s);
-  };
-  varied("12 D deep, inlet profile of the 3.5 D box",
-         [](PipeSetup& s) { s.depth = experiment_depth, s.profile_depth = box_depth; });
-  varied("3.5 D deep, inlet profile of the 12 D channel", [](PipeSetup& s) { s.profile_depth = experiment_depth; });
-  varied("3.5 D deep, uniform inlet", [](PipeSetup& s) { s.profile = flow::Profile::uniform; });
-  varied("3.5 D deep, hybrid scheme", [](PipeSetup& s) { s.convection = flow::Convection::hybrid; });
-  varied("3.5 D deep, Courant 0.4", [](PipeSetup& s) { s.courant = 0.4; });
-  varied("3.5 D deep, 270 x 48 cells", [](PipeSetup& s) { s.nx = 270, s.ny = 48; });
-  varied("3.5 D deep, 810 x 140 cells", [](PipeSetup& s) { s.nx = 810, s.ny = 140, s.record = 80; });
-
+    if (gap != 0.3) look_each(gap);
   for (const Model& m : models) {
     double before = 0;
     for (const auto& [gap, colour] : gaps) {
@@ -163,21 +145,60 @@ Result oner(const Tell& tell) {
   }
   shear.push_back({"k-epsilon, mu dU/dy in the first cells (Eq. 13)", shear.front().runs, true});
   std::vector<Drawn> shedding;
-  for (double depth : {box_depth, experiment_depth})
-    for (const Model& m : models) {
-      const PipeSetup s = setup(m.closure, 0.3, depth);
-      shedding.push_back({title(m, s), m.colour, &runs(s), 0.3});
-    }
+  for (const Model& m : models) {
+    const PipeSetup s = setup(m.closure, 0.3);
+    shedding.push_back({title(m, s), m.colour, &runs(s), 0.3});
+  }
   result.pictures = {
-      {"oner_3_profiles_e0.3.svg", figure_profiles(each_closure(runs, 0.3, box_depth))},
-      {"oner_3_profiles_e0.svg", figure_profiles(each_closure(runs, 0.0, box_depth))},
-      {"oner_4_streamlines_e0.svg", figure_mean_streamlines(each_closure(runs, 0.0, box_depth))},
-      {"oner_4_streamlines_e0.3.svg", figure_mean_streamlines(each_closure(runs, 0.3, box_depth))},
+      {"oner_3_profiles_e0.3.svg", figure_profiles(each_closure(runs, 0.3))},
+      {"oner_3_profiles_e0.svg", figure_profiles(each_closure(runs, 0.0))},
+      {"oner_4_streamlines_e0.svg", figure_mean_streamlines(each_closure(runs, 0.0))},
+      {"oner_4_streamlines_e0.3.svg", figure_mean_streamlines(each_closure(runs, 0.3))},
       {"oner_5_snapshots.svg", figure_snapshots(shedding.front())},
-      {"oner_6_velocity.svg", figure_velocity({shedding.begin(), shedding.begin() + 3})},
+      {"oner_6_velocity.svg", figure_velocity(shedding)},
       {"oner_7_bed_shear.svg", figure_bed_shear(shear)},
       {"oner_8_spectra.svg", figure_spectra(shedding)},
   };
+  return result;
+}
+
+Result oner_depth(const Tell& tell) {
+  Result result;
+  Runs runs(tell);
+  const auto look = [&](const std::string& name, const PipeSetup& s) { add_rows(name, s, runs(s), tell, result); };
+  const auto look_deep = [&](double gap) {
+    for (const Model& m : models)
+      look(title(m, setup(m.closure, gap, experiment_depth)), setup(m.closure, gap, experiment_depth));
+  };
+  look_deep(0.3);
+  // One thing changed at a time, k-epsilon, e/D 0.3.
+  const PipeSetup base = setup(Closure::k_epsilon, 0.3);
+  look(title(models.front(), base), base);
+  const auto varied = [&](const std::string& what, auto&& change) {
+    PipeSetup s = base;
+    change(s);
+    look("k-epsilon, e/D 0.3: " + what, s);
+  };
+  varied("12 D deep, inlet profile of the 3.5 D box",
+         [](PipeSetup& s) { s.depth = experiment_depth, s.profile_depth = box_depth; });
+  varied("3.5 D deep, inlet profile of the 12 D channel", [](PipeSetup& s) { s.profile_depth = experiment_depth; });
+  varied("3.5 D deep, uniform inlet", [](PipeSetup& s) { s.profile = flow::Profile::uniform; });
+  varied("3.5 D deep, hybrid scheme", [](PipeSetup& s) { s.convection = flow::Convection::hybrid; });
+  varied("3.5 D deep, Courant 0.4", [](PipeSetup& s) { s.courant = 0.4; });
+  varied("3.5 D deep, 270 x 48 cells", [](PipeSetup& s) { s.nx = 270, s.ny = 48; });
+  varied("3.5 D deep, 810 x 140 cells", [](PipeSetup& s) { s.nx = 810, s.ny = 140, s.record = 80; });
+  look_deep(0.0);
+
+  std::vector<Drawn> deep, spectra;
+  for (const Model& m : models) {
+    const PipeSetup s = setup(m.closure, 0.3, experiment_depth), box = setup(m.closure, 0.3);
+    deep.push_back({fmt::format("{}, 12 D deep", m.name), m.colour, &runs(s), 0.3});
+    deep.push_back({fmt::format("{}, 3.5 D deep", m.name), m.colour, &runs(box), 0.3, true});
+    spectra.push_back({title(m, s), m.colour, &runs(s), 0.3});
+  }
+  result.pictures = {{"oner_depth_3_profiles_e0.3.svg", figure_profiles(deep)},
+                     {"oner_depth_7_bed_shear_e0.3.svg", figure_bed_shear({{"e/D 0.3", deep}})},
+                     {"oner_depth_8_spectra.svg", figure_spectra(spectra)}};
   return result;
 }
 
