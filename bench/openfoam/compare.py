@@ -22,24 +22,31 @@ HALF = dict(cell_x=LENGTH / 1080, cell_y=H / 188)
 HALF_ABOVE = dict(HALF, growth=1.2, fine_y_from=5.6e-3, fine_y_to=H)
 HIGH = 190000.0
 
-# name: (what runs, its options).  Means over 11 s or more, eleven periods; OpenFOAM's finer meshes start from the
-# coarser one's flow.
+# name: (what runs, its options).  Means over ten shedding periods or more; OpenFOAM's finer meshes start from the
+# coarser one's flow.  nutU is Livebed's smooth law: log law of the speed, viscous below where they meet; nutk takes u*
+# from k.
 RUNS = {
-    "OpenFOAM 9k": ("openfoam", dict(level="coarse", end=20, start=8)),
-    "OpenFOAM 20k": ("openfoam", dict(level="medium", end=14, start=3, source="OpenFOAM 9k")),
-    "OpenFOAM 52k": ("openfoam", dict(level="fine", end=13.5, start=2.5, source="OpenFOAM 20k")),
-    "OpenFOAM 9k, nutU": ("openfoam", dict(level="coarse", end=20, start=8, wall="nutU")),
-    "OpenFOAM 9k, Re 190000": ("openfoam", dict(level="coarse", end=20, start=8, reynolds=HIGH)),
+    "OpenFOAM 9k": ("openfoam", dict(level="coarse", end=20, start=8, wall="nutU")),
+    "OpenFOAM 20k": ("openfoam", dict(level="medium", end=13.5, start=2.5, wall="nutU", source="OpenFOAM 9k")),
+    "OpenFOAM 52k": ("openfoam", dict(level="fine", end=12.2, start=2.2, wall="nutU", source="OpenFOAM 20k")),
     "Livebed 540 x 94": ("livebed", dict(mesh=EQUAL, end=20, start=8)),
-    "Livebed 1080 x 186": ("livebed", dict(mesh=HALF_ABOVE, end=20, start=8)),
-    "Livebed 1080 x 188": ("livebed", dict(mesh=HALF, end=20, start=8)),
+    "Livebed 1080 x 186": ("livebed", dict(mesh=HALF_ABOVE, end=16, start=5)),
+    "OpenFOAM 9k, nutk": ("openfoam", dict(level="coarse", end=20, start=8)),
+    "OpenFOAM 20k, nutk": ("openfoam", dict(level="medium", end=14, start=3, source="OpenFOAM 9k, nutk")),
+    "OpenFOAM 9k, nutk, pipe's cells 0.47 mm":
+        ("openfoam", dict(level="coarse", end=14, start=3, at_pipe=0.000465, source="OpenFOAM 9k, nutk")),
+    "OpenFOAM 9k, nutk, Re 190000": ("openfoam", dict(level="coarse", end=20, start=8, reynolds=HIGH)),
+    "OpenFOAM 9k, nutk, Re 190000, pipe's cells 0.47 mm":
+        ("openfoam", dict(level="coarse", end=16, start=6, reynolds=HIGH, at_pipe=0.000465,
+                          source="OpenFOAM 9k, nutk, Re 190000")),
     "Livebed 540 x 94, Re 190000": ("livebed", dict(mesh=EQUAL, end=20, start=8, reynolds=HIGH)),
+    "Livebed 1080 x 188, Re 190000": ("livebed", dict(mesh=HALF, end=16, start=5, reynolds=HIGH)),
 }
-REFERENCE = {9500.0: "OpenFOAM 52k", HIGH: "OpenFOAM 9k, Re 190000"}
+REFERENCE = {9500.0: "OpenFOAM 52k", HIGH: "OpenFOAM 9k, nutk, Re 190000, pipe's cells 0.47 mm"}
 
 
 def folder(out, name):
-    return os.path.join(out, name.replace(",", "").replace(" ", "_"))
+    return os.path.join(out, name.replace(",", "").replace("'", "").replace(" ", "_"))
 
 
 def run(build, out, name):
@@ -57,8 +64,8 @@ def run(build, out, name):
         os.makedirs(where, exist_ok=True)
         options.pop("start")
         setup.write_livebed(f"{where}/case.toml", **options)
-        subprocess.run([os.path.join(build, "mean_flow"), f"{where}/case.toml", "--from", str(start), "--out", where, "--at",
-                        *(str(s * D - X_IN) for s in STATIONS)], check=True, stdout=sys.stderr)
+        subprocess.run([os.path.join(build, "mean_flow"), f"{where}/case.toml", "--from", str(start), "--out", where,
+                        "--at", *(str(s * D - X_IN) for s in STATIONS)], check=True, stdout=sys.stderr)
     return results.livebed(where, start)
 
 

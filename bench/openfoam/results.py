@@ -101,7 +101,7 @@ def openfoam(case, start):
         y, u, k = [], [], []
         for cell, slope, energy in zip(samples("C_UMean"), samples("grad(UMean)"), samples("kMean")):
             y.append(cell[0])
-            # Linear inside the cell: columns are height, then x, y, z of the centre, u, ...; and height, du/dx, dv/dx, dw/dx,
+            # Linear inside the cell.  Columns: height, x, y, z of the centre, u, ...; height, du/dx, dv/dx, dw/dx,
             # du/dy, ...
             u.append(cell[4] + slope[1] * (s * D - cell[1]) + slope[4] * (cell[0] - cell[2]))
             k.append(energy[1])

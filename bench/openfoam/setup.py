@@ -1,8 +1,8 @@
 """The case that Livebed and OpenFOAM are compared on, written for either.
 
 Flow past a pipe over a flat bed after Oner et al. (2008): Re_D 9500, e/D 0.3, box of 30 D x 3.5 D, the pipe 10 D from
-the inlet.  Inlet: smooth log law with the depth mean U0 and the k, epsilon of an open channel in equilibrium; smooth wall
-functions on bed and pipe, symmetry lid, standard k-epsilon.  SI units; x = 0 under the pipe's centre.
+the inlet.  Inlet: smooth log law with the depth mean U0 and the k, epsilon of an open channel in equilibrium; smooth
+wall functions on bed and pipe, symmetry lid, standard k-epsilon.  SI units; x = 0 under the pipe's centre.
 """
 import math
 import os
@@ -79,9 +79,9 @@ end = {end}
 
 # ------------------------------------------------------------------------------------------------------ OpenFOAM
 
-# Body-fitted grids.  Cells: around (along each side of the square round the pipe), above (rows between square and lid), before
-# and behind it; rest of the two first-cell heights over the bed, rest of the ring of three round the pipe, from there
-# to the square.
+# Body-fitted grids.  Cells: around (along each side of the square round the pipe), above (rows between square and lid),
+# before and behind it; rest of the two first-cell heights over the bed, rest of the ring of three round the pipe, from
+# there to the square.
 FITTED = {
     "coarse": dict(around=28, above=18, before=58, behind=110, strip=1, ring=2, outer=4),
     "medium": dict(around=40, above=27, before=84, behind=160, strip=2, ring=3, outer=6),
@@ -122,16 +122,19 @@ def block_mesh(case, points, blocks, edges, sides, empties):
     patches = "\n".join(
         f"{name} {{ type {kind}; faces ({' '.join(f'({a} {b} {b + n} {a + n})' for a, b in faces)}); }}"
         for name, (kind, faces) in sides.items())
-    flat = [f"{name} {{ type empty; faces ({' '.join('(' + ' '.join(str(p + k) for p in q) + ')' for q in empties)}); }}"
-            for name, k in (("back", 0), ("front", n))]
+
+    def quadrilaterals(k):
+        return " ".join(f"({' '.join(str(p + k) for p in q)})" for q in empties)
+
+    flat = [f"{name} {{ type empty; faces ({quadrilaterals(k)}); }}" for name, k in (("back", 0), ("front", n))]
     dictionary(case, "system/blockMeshDict",
                f"scale 1;\nvertices\n(\n{vertices}\n);\nblocks\n(\n{hexes}\n);\nedges\n(\n{arcs}\n);\n"
                f"boundary\n(\n{patches}\n" + "\n".join(flat) + "\n);\n")
 
 
 def fitted_mesh(case, level, at_pipe=FIRST):
-    """O-grid round the pipe inside a square, Cartesian blocks around; at_pipe: height of the cells on the pipe, when lower
-    than FIRST the ring's cells grow away from it.  Returns the number of cells."""
+    """O-grid round the pipe inside a square, Cartesian blocks around; at_pipe: height of the cells on the pipe, when
+    lower than FIRST the ring's cells grow away from it.  Returns the number of cells."""
     c = FITTED[level]
     strip, ring = 2 * FIRST, R + 3 * FIRST
     half = YC - strip
@@ -148,7 +151,8 @@ def fitted_mesh(case, level, at_pipe=FIRST):
 
     def wall_rows(height, rest):
         """One cell of the height FIRST, the rest equal."""
-        return f"(({FIRST / height:.12g} {1 / (1 + rest):.12g} 1) ({1 - FIRST / height:.12g} {rest / (1 + rest):.12g} 1))"
+        share = FIRST / height
+        return f"(({share:.12g} {1 / (1 + rest):.12g} 1) ({1 - share:.12g} {rest / (1 + rest):.12g} 1))"
 
     bed, pipe, in_ring = wall_rows(strip, c["strip"]), wall_rows(ring - R, c["ring"]), 1 + c["ring"]
     if at_pipe < FIRST:
@@ -206,8 +210,9 @@ def cartesian_mesh(case, nx, ny):
     return nx * ny
 
 
-def write_openfoam(case, *, correctors, non_orthogonal, end, wall="nutk", scheme="linearUpwind", scalars="limitedLinear 1",
-                   time="backward", courant=0.85, step=1e-3, fixed_step=False, average_from=None, processes=1):
+def write_openfoam(case, *, correctors, non_orthogonal, end, wall="nutk", scheme="linearUpwind",
+                   scalars="limitedLinear 1", time="backward", courant=0.85, step=1e-3, fixed_step=False,
+                   average_from=None, processes=1):
     """Fields, physics, schemes and control of a case whose mesh is there.  wall: nutk or nutU, the velocity scale of
     the smooth law.  average_from: time from which means are taken and forces written; None: no functions."""
     ys = [0.0] + [H * 1e-4 ** (1 - i / 400) for i in range(401)]
@@ -235,8 +240,10 @@ boundaryField
     def out(value):
         return f"type inletOutlet; inletValue uniform {value};"
 
-    field("U", "volVectorField", "[0 1 -1 0 0 0 0]", f"({U0} 0 0)", profile(inlet_u, True), "type noSlip;", out("(0 0 0)"))
-    field("p", "volScalarField", "[0 2 -2 0 0 0 0]", "0", "type zeroGradient;", "type zeroGradient;", "type fixedValue;")
+    field("U", "volVectorField", "[0 1 -1 0 0 0 0]", f"({U0} 0 0)", profile(inlet_u, True), "type noSlip;",
+          out("(0 0 0)"))
+    flat = "type zeroGradient;"
+    field("p", "volScalarField", "[0 2 -2 0 0 0 0]", "0", flat, flat, "type fixedValue;")
     field("k", "volScalarField", "[0 2 -2 0 0 0 0]", k0, profile(inlet_k), "type kqRWallFunction;", out(k0))
     field("epsilon", "volScalarField", "[0 2 -3 0 0 0 0]", e0, profile(inlet_epsilon),
           f"type epsilonWallFunction; {law}", out(e0))
@@ -268,7 +275,7 @@ wallDist {{ method meshWave; }}
     "(U|k|epsilon)" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-6; relTol 0.01; }}
     "(U|k|epsilon)Final" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-6; relTol 0; }}
 }}
-PIMPLE {{ nOuterCorrectors 1; nCorrectors {correctors}; nNonOrthogonalCorrectors {non_orthogonal}; pRefCell 0; pRefValue 0; }}
+PIMPLE {{ nOuterCorrectors 1; nCorrectors {correctors}; nNonOrthogonalCorrectors {non_orthogonal}; }}
 """)
     functions = "" if average_from is None else f"""functions
 {{
@@ -278,7 +285,10 @@ PIMPLE {{ nOuterCorrectors 1; nCorrectors {correctors}; nNonOrthogonalCorrectors
         liftDir (0 1 0); dragDir (1 0 0); pitchAxis (0 0 1); magUInf {U0}; lRef {D}; Aref {D * SLAB};
         writeControl timeStep; writeInterval 1;
     }}
-    wallShear {{ type wallShearStress; libs ("libfieldFunctionObjects.so"); patches (bed pipe); writeControl writeTime; }}
+    wallShear
+    {{
+        type wallShearStress; libs ("libfieldFunctionObjects.so"); patches (bed pipe); writeControl writeTime;
+    }}
     yPlus {{ type yPlus; libs ("libfieldFunctionObjects.so"); writeControl writeTime; }}
     means
     {{
@@ -313,4 +323,5 @@ runTimeModifiable no;
 adjustTimeStep {"no" if fixed_step else "yes"}; maxCo {courant}; maxDeltaT 0.01;
 {functions}""")
     dictionary(case, "system/decomposeParDict",
-               f"numberOfSubdomains {processes};\nmethod simple;\nsimpleCoeffs {{ n ({processes} 1 1); delta 0.001; }}\n")
+               f"numberOfSubdomains {processes};\nmethod simple;\n"
+               f"simpleCoeffs {{ n ({processes} 1 1); delta 0.001; }}\n")

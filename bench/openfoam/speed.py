@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 """Seconds a step and a simulated second, OpenFOAM and Livebed in turns.
 
-  speed.py BUILD OUT [--pairs N] [--only NAME]... [--openfoam-only | --livebed-only]
+  speed.py BUILD OUT [--pairs N] [--only NAME]...
 
-OpenFOAM: equal Cartesian cells with the pipe as a staircase (2 PISO correctors, GAMG) at 540 x 94 and 1500 x 260; body-fitted
-at 52k (3 correctors, 1 non-orthogonal correction).  All start from a developed flow (the coarse body-fitted run of compare.py's
-kind, made in OUT when it is not there), linearUpwind for U, upwind for k and epsilon, Euler in time, Courant number 0.85 at
-the start.  Livebed: `livebed bench flow` on as many cells, Courant number 0.85.  1 and 2 cores.  Each line of the table:
-median (smallest to largest) over the pairs; the load average is told before each measurement.
+OpenFOAM: equal Cartesian cells with the pipe as a staircase (2 PISO correctors, GAMG) at 540 x 94 and 1500 x 260;
+body-fitted at 52k (3 correctors, 1 non-orthogonal correction).  All start from a developed flow (a coarse body-fitted
+run, made in OUT when it is not there), linearUpwind for U, upwind for k and epsilon, Euler in time, Courant number
+about 0.85.  Livebed: `livebed bench flow` on as many cells, Courant number 0.85.  1 and 2 cores.  Each line of the
+table: median (smallest to largest) over the pairs, and the largest number of cores that other programs kept busy in
+the meantime: above 0.1 the line says little.
 """
 import argparse
 import json
 import os
+import resource
 import statistics
 import subprocess
 import sys
@@ -75,11 +77,30 @@ def time_openfoam(out, name, cores):
 
 
 def time_livebed(build, cells, cores):
-    text = subprocess.run([os.path.join(build, "livebed"), "bench", "flow", "--json", "--cells", str(cells), "--threads",
-                           str(cores)], check=True, stdout=subprocess.PIPE, text=True).stdout
+    command = [os.path.join(build, "livebed"), "--threads", str(cores), "bench", "flow", "--json"]
+    text = subprocess.run([*command, "--cells", str(cells)], check=True, stdout=subprocess.PIPE, text=True).stdout
     told = json.loads(text)
     return dict(seconds=told["seconds_per_step"], step=told["step"], courant=told["courant"], cells=told["cells"],
                 commit=told["commit"])
+
+
+def busy():
+    """Processor seconds of the machine, and of the processes that have ended below this one."""
+    with open("/proc/stat") as f:
+        ticks = [int(w) for w in f.readline().split()[1:]]
+    user, nice, system, _, _, irq, softirq = ticks[:7]
+    own = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return (user + nice + system + irq + softirq) / os.sysconf("SC_CLK_TCK"), own.ru_utime + own.ru_stime
+
+
+def watched(run, *arguments):
+    """What run gives, with the cores that others kept busy meanwhile."""
+    all_before, own_before = busy()
+    start = time.time()
+    told = run(*arguments)
+    all_after, own_after = busy()
+    told["others"] = max(0.0, (all_after - all_before - own_after + own_before) / (time.time() - start))
+    return told
 
 
 def middle(values):
@@ -95,7 +116,7 @@ def main():
     a = parser.parse_args()
     os.makedirs(a.out, exist_ok=True)
     print("| cells | cores | OpenFOAM, s a step | Courant | s a simulated second | Livebed, s a step | Courant |"
-          " s a simulated second | faster a step | a simulated second |\n|" + "---|" * 10)
+          " s a simulated second | faster a step | a simulated second | others, cores |\n|" + "---|" * 11)
     commit = ""
     for name in a.only or CASES:
         cells = prepare(a.out, name)
@@ -104,10 +125,10 @@ def main():
         for cores in (1, 2):
             theirs, ours = [], []
             for pair in range(a.pairs):
-                print(f"{name}, {cores} cores, pair {pair + 1}: load average {os.getloadavg()[0]:.2f}", file=sys.stderr)
-                theirs.append(time_openfoam(a.out, name, cores))
-                ours.append(time_livebed(a.build, wanted, cores))
-                print(f"  {theirs[-1]}\n  {ours[-1]}", file=sys.stderr)
+                theirs.append(watched(time_openfoam, a.out, name, cores))
+                ours.append(watched(time_livebed, a.build, wanted, cores))
+                print(f"{name}, {cores} cores, pair {pair + 1}, load average {os.getloadavg()[0]:.2f}\n"
+                      f"  OpenFOAM {theirs[-1]}\n  Livebed {ours[-1]}", file=sys.stderr)
             commit = ours[0]["commit"]
 
             def column(runs, of):
@@ -123,7 +144,8 @@ def main():
                       for of in (a_step, a_second)]
             print(f"| {name}: {cells}, {ours[0]['cells']} | {cores} | {middle(column(theirs, a_step))} |"
                   f" {theirs[0]['courant']:.2f} | {middle(column(theirs, a_second))} | {middle(column(ours, a_step))} |"
-                  f" {ours[0]['courant']:.2f} | {middle(column(ours, a_second))} | {ratios[0]:.1f} | {ratios[1]:.1f} |",
+                  f" {ours[0]['courant']:.2f} | {middle(column(ours, a_second))} | {ratios[0]:.1f} | {ratios[1]:.1f} |"
+                  f" {max(column(theirs + ours, lambda r: r['others'])):.2f} |",
                   flush=True)
     print(f"\nLivebed of commit {commit}.")
 
