@@ -45,6 +45,7 @@ PipeSetup setup(Closure closure, double gap, double depth = box_depth) {
   PipeSetup s;
   s.closure = closure, s.gap_ratio = gap, s.depth = depth;
   if (gap != 0.3 && gap != 0.0) s.record = 80;  // only the bed shear and the trends are asked of these
+  if (gap == 0.0 && depth > box_depth) s.record = 40;  // steady
   return s;
 }
 
