@@ -28,9 +28,11 @@ HIGH = 190000.0
 RUNS = {
     "OpenFOAM 9k": ("openfoam", dict(level="coarse", end=20, start=8, wall="nutU")),
     "OpenFOAM 20k": ("openfoam", dict(level="medium", end=13.5, start=2.5, wall="nutU", source="OpenFOAM 9k")),
-    "OpenFOAM 52k": ("openfoam", dict(level="fine", end=12.2, start=2.2, wall="nutU", source="OpenFOAM 20k")),
+    "OpenFOAM 52k": ("openfoam", dict(level="fine", end=12, start=2, wall="nutU", source="OpenFOAM 20k")),
     "Livebed 540 x 94": ("livebed", dict(mesh=EQUAL, end=20, start=8)),
     "Livebed 1080 x 186": ("livebed", dict(mesh=HALF_ABOVE, end=16, start=5)),
+    "OpenFOAM 9k, pipe's cells 0.93 mm":
+        ("openfoam", dict(level="coarse", end=13.5, start=2.5, wall="nutU", at_pipe=0.00093, source="OpenFOAM 9k")),
     "OpenFOAM 9k, nutk": ("openfoam", dict(level="coarse", end=20, start=8)),
     "OpenFOAM 20k, nutk": ("openfoam", dict(level="medium", end=14, start=3, source="OpenFOAM 9k, nutk")),
     "OpenFOAM 9k, nutk, pipe's cells 0.47 mm":
@@ -39,10 +41,13 @@ RUNS = {
     "OpenFOAM 9k, nutk, Re 190000, pipe's cells 0.47 mm":
         ("openfoam", dict(level="coarse", end=16, start=6, reynolds=HIGH, at_pipe=0.000465,
                           source="OpenFOAM 9k, nutk, Re 190000")),
+    "OpenFOAM 9k, nutk, Re 190000, pipe's cells 0.23 mm":
+        ("openfoam", dict(level="coarse", end=14, start=4, reynolds=HIGH, at_pipe=0.000233,
+                          source="OpenFOAM 9k, nutk, Re 190000, pipe's cells 0.47 mm")),
     "Livebed 540 x 94, Re 190000": ("livebed", dict(mesh=EQUAL, end=20, start=8, reynolds=HIGH)),
     "Livebed 1080 x 188, Re 190000": ("livebed", dict(mesh=HALF, end=16, start=5, reynolds=HIGH)),
 }
-REFERENCE = {9500.0: "OpenFOAM 52k", HIGH: "OpenFOAM 9k, nutk, Re 190000, pipe's cells 0.47 mm"}
+REFERENCE = {9500.0: "OpenFOAM 52k", HIGH: "OpenFOAM 9k, nutk, Re 190000, pipe's cells 0.23 mm"}
 
 
 def folder(out, name):

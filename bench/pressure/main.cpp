@@ -11,7 +11,8 @@
 #include "solvers.hpp"
 
 /// Time and iterations of pressure solvers on the systems of real steps, as a Markdown table on standard output.
-/// Arguments: parts of names; only grids whose name holds one of them are measured.
+/// Arguments: --own for the program's own solver alone; parts of names, only grids whose name holds one of them are
+/// measured.
 namespace {
 
 using namespace livebed;
@@ -46,12 +47,13 @@ std::string measure(const System& system, LinearSolver& solver, double tolerance
   return fmt::format("{} / {:.3g}", iterations, times[times.size() / 2]);
 }
 
-void print_rows(const System& system) {
-  const std::vector<Method> methods = {{"own multigrid", make_own},
-                                       {"separable, direct", make_separable},
-                                       {"hypre PFMG", make_pfmg},
-                                       {"hypre SMG", make_smg},
-                                       {"hypre BoomerAMG", make_boomer}};
+void print_rows(const System& system, bool own_alone) {
+  std::vector<Method> methods = {{"own multigrid", make_own}};
+  if (!own_alone)
+    methods.insert(methods.end(), {{"separable, direct", make_separable},
+                                   {"hypre PFMG", make_pfmg},
+                                   {"hypre SMG", make_smg},
+                                   {"hypre BoomerAMG", make_boomer}});
   for (const Method& method : methods) {
     const auto start = Clock::now();
     const std::unique_ptr<LinearSolver> solver = method.make(system);
@@ -71,9 +73,11 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "set OPENBLAS_NUM_THREADS=1 and OMP_NUM_THREADS=1: all are compared on one core\n");
     return static_cast<int>(base::Exit::command_line);
   }
+  const bool own_alone = argc > 1 && std::strcmp(argv[1], "--own") == 0;
+  const std::vector<std::string> parts(argv + (own_alone ? 2 : 1), argv + argc);
   const auto wanted = [&](const std::string& name) {
-    return argc == 1 ||
-           std::any_of(argv + 1, argv + argc, [&](const char* part) { return name.find(part) != name.npos; });
+    return parts.empty() || std::any_of(parts.begin(), parts.end(),
+                                        [&](const std::string& part) { return name.find(part) != name.npos; });
   };
   MPI_Init(&argc, &argv);
   HYPRE_Init();
@@ -90,9 +94,9 @@ int main(int argc, char** argv) {
         Choice choice = kind;
         choice.name = fmt::format("{}, {}", size.name, kind.name);
         choice.nx = size.nx, choice.ny = size.ny;
-        if (wanted(choice.name)) print_rows(make_system(choice));
+        if (wanted(choice.name)) print_rows(make_system(choice), own_alone);
       }
-    if (wanted("no pipe")) print_rows(make_thin_system());
+    if (wanted("no pipe")) print_rows(make_thin_system(), own_alone);
   } catch (const base::Fault& fault) {
     fmt::print(stderr, "{}\n", fault.what());
     return static_cast<int>(fault.code());

@@ -84,13 +84,8 @@ double water_fraction(double x, double y, double bed) {
   return 0.4 + 0.2 * static_cast<double>(hash >> 8) / (1 << 24);
 }
 
-System system_of_a_step(const std::string& name, flow::Solver& flow, bool grains) {
-  // The first steps take the divergence away that the mapping leaves.
-  for (int k = 0; k < 6; ++k) flow.advance(flow.step_limit());
-  const Field before = flow.state.p;
-  flow.advance(flow.step_limit());
-
-  const flow::Mesh& m = flow.mesh();
+/// The system of a grid, b still 0.
+System without_source(const std::string& name, const flow::Mesh& m, bool grains) {
   const int nx = m.nx, ny = m.ny;
   System s;
   s.name = name, s.nx = nx, s.ny = ny;
@@ -114,14 +109,6 @@ System system_of_a_step(const std::string& name, flow::Solver& flow, bool grains
       here += alpha(i, j) / nx, across += 0.5 * (alpha(i, std::max(j - 1, 0)) + alpha(i, j)) / nx;
     s.openness.push_back(here), s.openness_across.push_back(across);
   }
-  const auto increment = [&](int i, int j) { return flow.state.p(i, j) - before(i, j); };
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i) {
-      if (s.diagonal(i, j) == 0) continue;
-      const auto flux = [&](double c, int a, int b) { return c > 0 ? c * (increment(i, j) - increment(a, b)) : 0.0; };
-      s.b(i, j) = flux(s.c_x(i, j), i - 1, j) + flux(s.c_x(i + 1, j), i + 1, j) + flux(s.c_y(i, j), i, j - 1) +
-                  flux(s.c_y(i, j + 1), i, j + 1) + s.c_boundary(i, j) * increment(i, j);
-    }
   return s;
 }
 
@@ -157,20 +144,38 @@ System make_system(const Choice& choice) {
   stretch_columns(p.mesh, choice.nx, p.pipe.x);
   flow::Solver fine = make_solver(p);
   flow::map_flow(coarse, fine);
-  return system_of_a_step(choice.name, fine, choice.grains);
+  // The first steps take the divergence away that the mapping leaves.
+  for (int k = 0; k < 6; ++k) fine.advance(fine.step_limit());
+  const Field before = fine.state.p;
+  fine.advance(fine.step_limit());
+
+  System s = without_source(choice.name, fine.mesh(), choice.grains);
+  const auto increment = [&](int i, int j) { return fine.state.p(i, j) - before(i, j); };
+  for (int j = 0; j < s.ny; ++j)
+    for (int i = 0; i < s.nx; ++i) {
+      if (s.diagonal(i, j) == 0) continue;
+      const auto flux = [&](double c, int a, int b) { return c > 0 ? c * (increment(i, j) - increment(a, b)) : 0.0; };
+      s.b(i, j) = flux(s.c_x(i, j), i - 1, j) + flux(s.c_x(i + 1, j), i + 1, j) + flux(s.c_y(i, j), i, j - 1) +
+                  flux(s.c_y(i, j + 1), i, j + 1) + s.c_boundary(i, j) * increment(i, j);
+    }
+  return s;
 }
 
 System make_thin_system() {
-  flow::Params p = pipe_flow();
-  p.pipe.present = false;
-  p.mesh.cell_x = 0.05, p.mesh.cell_y = 0.0005;
-  p.mesh.length = 80 * p.mesh.cell_x, p.mesh.height = 100 * p.mesh.cell_y;
-  p.current.shear_velocity =
-      flow::shear_velocity_from_mean(flow::Profile::smooth, mean_speed, p.mesh.height, 0.0, p.viscosity);
-  p.pressure_tolerance = 1e-2;
-  flow::Solver flow = make_solver(p);
-  flow.start();
-  return system_of_a_step("no pipe", flow, false);
+  flow::MeshParams grid;
+  grid.cell_x = 0.05, grid.cell_y = 0.0005;
+  grid.length = 80 * grid.cell_x, grid.height = 100 * grid.cell_y;
+  flow::PipeParams no_pipe;
+  no_pipe.present = false;
+  const flow::Mesh m = flow::make_mesh(grid, no_pipe);
+  System s = without_source("no pipe", m, false);
+  // What a current that meanders leaves of its mass: u = 0.2 (1 + 0.1 sin(x/h) cos(y/h)), nothing upwards.
+  const auto flow_through = [&](int face, int j) {
+    return 0.2 * (1 + 0.1 * std::sin(m.x[face] / grid.height) * std::cos(m.centre_y(j) / grid.height)) * m.dy(j);
+  };
+  for (int j = 0; j < s.ny; ++j)
+    for (int i = 0; i < s.nx; ++i) s.b(i, j) = flow_through(i, j) - flow_through(i + 1, j);
+  return s;
 }
 
 }  // namespace livebed::bench

@@ -37,7 +37,7 @@ struct Choice {
 /// on a coarse grid.
 System make_system(const Choice& choice);
 
-/// 80 x 100 cells of 50 mm x 0.5 mm, no pipe: aspect ratio 100.
+/// 80 x 100 cells of 50 mm x 0.5 mm, no pipe: aspect ratio 100; b from a current that is not free of divergence.
 System make_thin_system();
 
 }  // namespace livebed::bench
