@@ -185,7 +185,6 @@ Result oner_depth(const Tell& tell) {
   varied("3.5 D deep, inlet profile of the 12 D channel", [](PipeSetup& s) { s.profile_depth = experiment_depth; });
   varied("3.5 D deep, uniform inlet", [](PipeSetup& s) { s.profile = flow::Profile::uniform; });
   varied("3.5 D deep, hybrid scheme", [](PipeSetup& s) { s.convection = flow::Convection::hybrid; });
-  varied("3.5 D deep, Courant 0.4", [](PipeSetup& s) { s.courant = 0.4; });
   varied("3.5 D deep, 270 x 48 cells", [](PipeSetup& s) { s.nx = 270, s.ny = 48; });
   varied("3.5 D deep, 810 x 140 cells", [](PipeSetup& s) { s.nx = 810, s.ny = 140, s.record = 80; });
   look_deep(0.0);

@@ -9,7 +9,7 @@ inline constexpr const char* kept_runs = "runs/validate/oner";
 /// Figures 3-8 of the paper on 540 x 94 cells: each closure and gap in the paper's box, 3.5 D deep.
 Result oner(const Tell& tell);
 
-/// What sets the Strouhal number: the experiment's depth, 12 D, and single changes of profile, scheme, step and grid.
+/// What sets the Strouhal number: the depth of the experiment, 12 D, and single changes of profile, scheme and grid.
 Result oner_depth(const Tell& tell);
 
 /// The paper's grid, 1500 x 260: e/D 0.3 and 0, each closure, beside the usual grid.
