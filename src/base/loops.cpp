@@ -16,7 +16,10 @@ namespace {
 class Team {
 public:
   explicit Team(int size) : size_(size) {
-    for (int share = 1; share < size; ++share) workers_.emplace_back([this, share] { serve(share); });
+    for (int share = 1; share < size; ++share) workers_.emplace_back([this, share] {
+        index = share;
+        serve(share);
+      });
   }
   ~Team() {
     work_ = nullptr;
@@ -37,6 +40,7 @@ public:
   }
 
   static thread_local bool inside;
+  static thread_local int index;
 
 private:
   /// Returns the value once it is no longer `old` (at once when old is 0 or the value differs already).
@@ -80,6 +84,7 @@ private:
   void* data_ = nullptr;
 };
 thread_local bool Team::inside = false;
+thread_local int Team::index = 0;
 
 int thread_count = 1;
 std::unique_ptr<Team> team;
@@ -94,6 +99,7 @@ void set_threads(int n) {
 }
 
 int threads() { return thread_count; }
+int thread_index() { return Team::index; }
 
 void on_all_threads(void (*work)(void* data, int share, int shares), void* data, bool alone) {
   if (alone || !team || Team::inside) return work(data, 0, 1);

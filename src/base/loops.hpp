@@ -12,6 +12,9 @@ namespace livebed::base {
 void set_threads(int n);
 int threads();
 
+/// Which of them calls: 0 .. threads()-1.  For scratch that each thread has of its own.
+int thread_index();
+
 /// One item, always by the same machine code: inlined into a loop over a share, the compiler may treat the last items
 /// of a share differently from the others, and shares depend on the number of threads.
 template <class Body>

@@ -15,9 +15,10 @@ namespace {
 
 PaperDrag make_drag(const Params& params) { return PaperDrag{params.drag_infinity}; }
 
-Field slab_volume(const flow::Staggering& at, double slab) {
-  Field v = at.volume;
-  for (double& value : v.storage()) value *= slab;
+Field slab_volume(const flow::Mesh& m, const flow::Staggering& at, double slab) {
+  Field v(m.nx, m.ny);
+  for (int j = 0; j <= m.ny; ++j)
+    for (int i = 0; i <= m.nx; ++i) v(i, j) = slab * at.volume(i, j);
   return v;
 }
 
@@ -42,14 +43,14 @@ Coupler::Coupler(const Params& params, const flow::Mesh& mesh, const flow::Stagg
       slab_(grain_diameter),
       density_(density),
       viscosity_(viscosity),
-      volume_u_(slab_volume(at_u, slab_)),
-      volume_v_(slab_volume(at_v, slab_)),
+      volume_u_(slab_volume(mesh, at_u, slab_)),
+      volume_v_(slab_volume(mesh, at_v, slab_)),
       at_u_(at_u, mesh.aperture_x, 1, mesh.nx - 1, params.kernel * grain_diameter),
       at_v_(at_v, mesh.aperture_y, 0, mesh.nx - 1, params.kernel * grain_diameter),
       owed_u_(mesh.nx, mesh.ny),
       owed_v_(mesh.nx, mesh.ny) {
   const flow::Staggering at_c = flow::Staggering::centres(mesh);
-  volume_c_ = slab_volume(at_c, slab_);
+  volume_c_ = slab_volume(mesh, at_c, slab_);
   at_c_ = Transfer(at_c, mesh.volume, 0, mesh.nx - 1, params.kernel * grain_diameter);
 }
 
@@ -76,6 +77,7 @@ void Coupler::load_flow(grains::State& g, flow::State& s, double dt, bool held) 
   if (params_.mode == Mode::one_way) return;
 
   flow::Load& load = s.load;
+  load.top = ny_;
   for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v}) f->fill(0.0);
   const bool implicit = held || params_.exchange == Exchange::implicit;
   if (implicit) {

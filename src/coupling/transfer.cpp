@@ -23,7 +23,7 @@ double kernel_integral(double s) {
 
 Transfer::Transfer(const flow::Staggering& at, const base::Field& aperture, int first_column, int last_column,
                    double half_width)
-    : half_width_(half_width), first_column_(first_column), first_row_(at.j0), open_(at.volume) {
+    : half_width_(half_width), first_column_(first_column), first_row_(at.j0), open_(aperture.nx(), aperture.ny()) {
   // The volumes of u begin at the centre of cell 0, those of scalars and of v at the inlet; y likewise.
   double edge = at.shift_x ? 0.5 * at.hx[3] : 0.0;
   edges_x_.push_back(edge);

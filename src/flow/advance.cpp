@@ -27,10 +27,12 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
       pressure_(mesh.nx, mesh.ny) {
   const Field zero(mesh.nx, mesh.ny);
   State& s = state;
-  s.u = s.v = s.p = s.nut = s.u_old = s.v_old = s.rate_u = s.rate_v = zero;
-  s.k = Field(mesh.nx, mesh.ny, 2, k_floor);
-  s.epsilon = Field(mesh.nx, mesh.ny, 2, epsilon_floor);
-  s.load = {zero, zero, zero, zero};
+  s.u = s.v = s.p = s.nut = s.u_old = s.v_old = zero;
+  s.convection_u = s.convection_v = s.convection_k = s.convection_e = zero;
+  s.k = s.k_old = Field(mesh.nx, mesh.ny, 2, k_floor);
+  s.epsilon = s.epsilon_old = Field(mesh.nx, mesh.ny, 2, epsilon_floor);
+  s.load = {0, zero, zero, zero, zero};
+  if (params.algorithm == Algorithm::simple) work_.own_rows(mesh.ny);
 }
 
 void Solver::start() {
@@ -44,9 +46,11 @@ void Solver::start() {
   fill_velocity_ghosts(mesh_, boundary_, s.u, s.v);
   double residual = 0;
   set_pressure_coefficients();
-  sum_outflow();
   project(1.0, params_.pressure_tolerance, 1.0, residual);
-  if (params_.closure != Closure::laminar) turbulence_.start(mesh_, boundary_, params_, s);
+  if (params_.closure != Closure::laminar) {
+    evaluate_walls(mesh_, boundary_, params_, s, work_);
+    turbulence_.start(mesh_, boundary_, params_, s, work_);
+  }
   s.p.fill(0.0);              // of a start by impulse: it means nothing for the steps to come
   coefficients_set_ = false;  // the steps use their own, whether they follow this start or a checkpoint
   s.u_old = s.u;
@@ -60,82 +64,75 @@ double Solver::step_limit() const {
 }
 
 double Solver::passage_rate() const {
+  const double* per_dx = work_.per_dx.data() + 2;
   return base::largest(0, mesh_.ny, partial_, 0.0, [&](int j) {
-    const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1), *dx = mesh_.dx_.data() + 2;
-    const double dy = mesh_.dy(j);
+    const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1);
+    const double per_dy = 1.0 / mesh_.dy(j);
     return base::vector_largest(0, mesh_.nx, 0.0, [&](int i) {
-      return std::max(std::abs(u[i]), std::abs(u[i + 1])) / dx[i] + std::max(std::abs(v[i]), std::abs(va[i])) / dy;
+      return std::max(std::abs(u[i]), std::abs(u[i + 1])) * per_dx[i] +
+             std::max(std::abs(v[i]), std::abs(va[i])) * per_dy;
     });
   });
 }
 
 void Solver::set_pressure_coefficients() {
-  const bool loaded =
-      base::largest(0, mesh_.ny, partial_, 0.0, [&](int j) {
-        return base::vector_largest(0, mesh_.nx + 1, 0.0, [&](int i) { return state.load.beta_u.row(j)[i]; });
-      }) > 0;
+  const bool loaded = state.load.top > 0 || params_.algorithm == Algorithm::simple;
   if (coefficients_set_ && !loaded) return;
   coefficients_set_ = !loaded;
   const Mesh& m = mesh_;
   for_each_item(0, m.ny, [&](int j) {
-    const double *ax = m.aperture_x.row(j), *ay = m.aperture_y.row(j), *hx = m.dx_face_.data() + 2,
+    const double *ax = work_.face_x.row(j), *ay = work_.face_y.row(j), *per_hx = work_.per_dx_face.data() + 2,
                  *dx = m.dx_.data() + 2;
     const double *ru = work_.response_u.row(j), *rv = work_.response_v.row(j);
-    const double dy = m.dy(j), hy = m.dy_face(j);
+    const double dy = m.dy(j), per_hy = 1.0 / m.dy_face(j);
     double *cx = work_.c_x.row(j), *cy = work_.c_y.row(j);
     vector_loop(0, m.nx, [&](int i) {
-      cx[i] = ax[i] * ru[i] * dy / hx[i];
-      cy[i] = ay[i] * rv[i] * dx[i] / hy;
+      cx[i] = ax[i] * ru[i] * dy * per_hx[i];
+      cy[i] = ay[i] * rv[i] * dx[i] * per_hy;
     });
-    if (boundary_.outlet) work_.c_boundary(m.nx - 1, j) = work_.response_u(m.nx, j) * dy / (0.5 * dx[m.nx - 1]);
+    if (boundary_.outlet) work_.c_boundary(m.nx - 1, j) = ru[m.nx] * dy / (0.5 * dx[m.nx - 1]);
   });
   pressure_.set_coefficients(work_.c_x, work_.c_y, work_.c_boundary);
 }
 
-void Solver::sum_outflow() {
+double Solver::sum_outflow(double scale, Field* to) {
   const Mesh& m = mesh_;
-  for_each_item(0, m.ny, [&](int j) {
-    const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1), *ax = m.aperture_x.row(j);
-    const double *ay = m.aperture_y.row(j), *aya = m.aperture_y.row(j + 1), *dx = m.dx_.data() + 2;
+  return std::sqrt(base::ordered_sum(0, m.ny, partial_, [&](int j) {
+    const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1), *ax = work_.face_x.row(j);
+    const double *ay = work_.face_y.row(j), *aya = work_.face_y.row(j + 1), *dx = m.dx_.data() + 2;
     const double dy = m.dy(j);
-    double* out = work_.outflow.row(j);
-    vector_loop(0, m.nx, [&](int i) {
-      out[i] = (ax[i + 1] * u[i + 1] - ax[i] * u[i]) * dy + (aya[i] * va[i] - ay[i] * v[i]) * dx[i];
-    });
-  });
+    const auto out = [&](int i) {
+      return (ax[i + 1] * u[i + 1] - ax[i] * u[i]) * dy + (aya[i] * va[i] - ay[i] * v[i]) * dx[i];
+    };
+    if (!to) return base::vector_sum(0, m.nx, [&](int i) { return out(i) * out(i); });
+    double* b = to->row(j);
+    vector_loop(0, m.nx, [&](int i) { b[i] = scale * out(i); });
+    return base::vector_sum(0, m.nx, [&](int i) { return b[i] * b[i]; });
+  })) / (to ? std::abs(scale) : 1.0);
 }
 
 SolveReport Solver::project(double dt, double tolerance, double relax, double& mass_residual) {
   const Mesh& m = mesh_;
-  const auto norm = [&] {
-    return std::sqrt(base::ordered_sum(0, m.ny, partial_, [&](int j) {
-      const double* out = work_.outflow.row(j);
-      return base::vector_sum(0, m.nx, [&](int i) { return out[i] * out[i]; });
-    }));
-  };
-  const double before = norm();
-  const double scale = -params_.density / dt;
-  for_each_item(0, m.ny, [&](int j) {
-    double* b = work_.outflow.row(j);
-    vector_loop(0, m.nx, [&](int i) { b[i] *= scale; });
-  });
+  const double before = sum_outflow(-params_.density / dt, &work_.outflow);
   work_.phi.fill(0.0);
   const SolveReport report = pressure_.solve(work_.phi, work_.outflow, tolerance, params_.pressure_iterations);
   const double kick = dt / params_.density;
   for_each_item(0, m.ny, [&](int j) {
-    const double *phi = work_.phi.row(j), *below = work_.phi.row(j - 1), *ax = m.aperture_x.row(j),
-                 *ay = m.aperture_y.row(j);
-    const double *ru = work_.response_u.row(j), *rv = work_.response_v.row(j), *hx = m.dx_face_.data() + 2;
-    const double hy = m.dy_face(j);
+    const double *phi = work_.phi.row(j), *below = work_.phi.row(j - 1), *ax = work_.face_x.row(j),
+                 *ay = work_.face_y.row(j);
+    const double *ru = work_.response_u.row(j), *rv = work_.response_v.row(j),
+                 *per_hx = work_.per_dx_face.data() + 2;
+    const double along_y = j > 0 ? kick / m.dy_face(j) : 0.0;
     double *u = state.u.row(j), *v = state.v.row(j), *p = state.p.row(j);
-    vector_loop(1, m.nx, [&](int i) { u[i] -= ax[i] > 0 ? kick * ru[i] * (phi[i] - phi[i - 1]) / hx[i] : 0.0; });
-    if (j > 0) vector_loop(0, m.nx, [&](int i) { v[i] -= ay[i] > 0 ? kick * rv[i] * (phi[i] - below[i]) / hy : 0.0; });
+    vector_loop(0, m.nx, [&](int i) {
+      u[i] -= ax[i] > 0 && i > 0 ? kick * ru[i] * (phi[i] - phi[i - 1]) * per_hx[i] : 0.0;
+      v[i] -= ay[i] > 0 ? along_y * rv[i] * (phi[i] - below[i]) : 0.0;
+      p[i] += relax * phi[i];
+    });
     if (boundary_.outlet) u[m.nx] += kick * ru[m.nx] * phi[m.nx - 1] / (0.5 * m.dx(m.nx - 1));
-    vector_loop(0, m.nx, [&](int i) { p[i] += relax * phi[i]; });
   });
   fill_velocity_ghosts(m, boundary_, state.u, state.v);
-  sum_outflow();
-  mass_residual = before > 0 ? norm() / before : 0.0;
+  mass_residual = before > 0 ? sum_outflow(0.0, nullptr) / before : 0.0;
   return report;
 }
 
@@ -151,13 +148,10 @@ StepReport Solver::advance(double dt) {
 
 StepReport Solver::advance_projection(double dt) {
   StepReport report;
-  center_face_flow(mesh_, state, dt, work_.face);
   evaluate_walls(mesh_, boundary_, params_, state, work_);
   predict_velocity(mesh_, boundary_, params_, at_u_, at_v_, dt, state, work_);
   set_pressure_coefficients();
-  sum_outflow();
   report.pressure = project(dt, params_.pressure_tolerance, 1.0, report.mass_residual);
-  complete_rates(at_u_, at_v_, dt, state);
   if (params_.closure != Closure::laminar)
     advance_turbulence(mesh_, boundary_, params_, at_c_, dt, turbulence_, state, work_);
   return report;
@@ -166,14 +160,11 @@ StepReport Solver::advance_projection(double dt) {
 base::Vec2 Solver::pipe_force() const {
   base::Vec2 force;
   if (!mesh_.has_pipe()) return force;
-  const Mesh& m = mesh_;
-  for (int j = 0; j < m.ny; ++j)
-    for (int i = 0; i < m.nx; ++i) {
-      if (m.wall_length(i, j) == 0) continue;
-      const base::Vec2 wall = wall_vector(m, i, j);
-      force.x -= state.p(i, j) * wall.x;
-      force.y -= state.p(i, j) * wall.y;
-    }
+  for (const WallCell& cell : work_.wall_cells) {
+    const base::Vec2 wall = wall_vector(mesh_, cell.i, cell.j);
+    force.x -= state.p(cell.i, cell.j) * wall.x;
+    force.y -= state.p(cell.i, cell.j) * wall.y;
+  }
   for (const WallPart& part : work_.wall_u) force.x += params_.density * part.friction * state.u(part.i, part.j);
   for (const WallPart& part : work_.wall_v) force.y += params_.density * part.friction * state.v(part.i, part.j);
   return force;

@@ -74,9 +74,10 @@ private:
   StepReport advance_simple(double dt);
   StepReport outer_iteration(double inverse_dt);
   /// u, v <- free of divergence by the gradient of phi, solved to the tolerance given; p <- p + relax phi.
-  /// set_pressure_coefficients and sum_outflow come first.
+  /// set_pressure_coefficients comes first.
   SolveReport project(double dt, double tolerance, double relax, double& mass_residual);
-  void sum_outflow();
+  /// to <- scale x what flows out of each cell, when a field is given; returns the Euclidean norm of the outflow [m2/s].
+  double sum_outflow(double scale, base::Field* to);
 
   Params params_;
   Mesh mesh_;

@@ -15,9 +15,8 @@ constexpr double correction_tolerance = 1e-2;
 StepReport Solver::outer_iteration(double inverse_dt) {
   StepReport report;
   simple_.solve_momentum(mesh_, boundary_, params_, at_u_, at_v_, inverse_dt, state, work_, report.residuals);
-  coefficients_set_ = false;
   set_pressure_coefficients();
-  sum_outflow();
+  sum_outflow(1.0, &work_.outflow);
   report.residuals.p = simple_.pressure_residual(mesh_, params_.density, state.p, work_);
   report.pressure = project(1.0, std::max(params_.pressure_tolerance, correction_tolerance), params_.relax_pressure,
                             report.mass_residual);

@@ -7,39 +7,60 @@
 namespace livebed::flow {
 
 using base::Field;
-using base::for_each_item;
+using base::SharedRows;
 using base::vector_loop;
 
 Workspace::Workspace(const Mesh& m)
-    : handed_u(hand_on(m, true)),
+    : face_x(m.aperture_x),
+      face_y(m.aperture_y),
+      handed_u(hand_on(m, true)),
       handed_v(hand_on(m, false)),
       wall_u(share_wall(m, true)),
       wall_v(share_wall(m, false)),
-      rows(m) {
+      wall_cells(find_wall_cells(m)),
+      ones(m.nx, std::vector<char>(m.ny, 0), 1.0),
+      rows(m),
+      columns(m),
+      walls_u_(m.ny, 0),
+      walls_v_(m.ny, 0),
+      nx_(m.nx) {
   const Field f(m.nx, m.ny);
-  face = {f, f, f, f};
-  gamma = wall_c = base_u = base_v = friction_u = friction_v = change = scratch = base = f;
-  phi = outflow = c_x = c_y = c_boundary = f;
-  response_u = response_v = Field(m.nx, m.ny, 2, 1.0);
-  conductance = {f, f};
+  wall_c = next_a = next_b = convection = convection_e = change = change_e = exchange_y = phi = outflow = c_x = c_y = c_boundary = f;
+  for (double dx : m.dx_) per_dx.push_back(1.0 / dx);
+  for (double h : m.dx_face_) per_dx_face.push_back(h > 0 ? 1.0 / h : 0.0);
   floor_c.assign(m.nx, 0.0);
   top_c.assign(m.nx, 0.0);
+  walls_u_.front() = walls_u_.back() = 1;
+  for (const WallPart& part : wall_u) walls_u_[part.j] = 1;
+  for (const WallPart& part : wall_v) walls_v_[part.j] = 1;
+  friction_u = SharedRows(m.nx, walls_u_, 0.0);
+  friction_v = SharedRows(m.nx, walls_v_, 0.0);
+  owned_ = -1;
+  own_rows(0);
 }
 
-void center_face_flow(const Mesh& m, const State& s, double dt, FaceFlow& face) {
-  const double ahead = s.step > 0 ? 0.5 * dt / s.step : 0.0;
-  for_each_item(-2, m.ny + 2, [&](int j) {
-    const double *u = s.u.row(j), *v = s.v.row(j), *uo = s.u_old.row(j), *vo = s.v_old.row(j);
-    const double *ax = m.aperture_x.row(j), *ay = m.aperture_y.row(j), *dx = m.dx_.data() + 2;
-    const double dy = m.dy(j);
-    double *fu = face.u.row(j), *fv = face.v.row(j), *qx = face.qx.row(j), *qy = face.qy.row(j);
-    vector_loop(-2, m.nx + 2, [&](int i) {
-      fu[i] = u[i] + ahead * (u[i] - uo[i]);
-      fv[i] = v[i] + ahead * (v[i] - vo[i]);
-      qx[i] = fu[i] * ax[i] * dy;
-      qy[i] = fv[i] * ay[i] * dx[i];
-    });
-  });
+void Workspace::own_rows(int top) {
+  if (top <= owned_) return;
+  owned_ = top;
+  const auto with = [&](std::vector<char> own) {
+    std::fill(own.begin(), own.begin() + top, 1);
+    return SharedRows(nx_, own, 1.0);
+  };
+  factor_u = response_u = with(walls_u_);
+  factor_v = response_v = with(walls_v_);
+}
+
+Carrier centred_carrier(const State& s, double dt) {
+  return {s.u, s.v, s.u_old, s.v_old, s.step > 0 ? 0.5 * dt / s.step : 0.0};
+}
+
+Component u_component(const Staggering& at_u, State& s, Workspace& w) {
+  return {at_u,         true,         s.u,        s.u_old,      s.convection_u, s.load.beta_u,
+          s.load.force_u, w.friction_u, w.factor_u, w.response_u, w.handed_u};
+}
+Component v_component(const Staggering& at_v, State& s, Workspace& w) {
+  return {at_v,         false,        s.v,        s.v_old,      s.convection_v, s.load.beta_v,
+          s.load.force_v, w.friction_v, w.factor_v, w.response_v, w.handed_v};
 }
 
 void evaluate_walls(const Mesh& m, const Boundary& b, const Params& params, const State& s, Workspace& w) {
@@ -50,149 +71,17 @@ void evaluate_walls(const Mesh& m, const Boundary& b, const Params& params, cons
     w.top_c[i] = wall_friction(params.closure, b.top, along(i, m.ny - 1), 0.5 * m.dy(m.ny - 1), b.floor_roughness,
                                params.viscosity);
   }
-  if (!m.has_pipe()) return;
-  for_each_item(0, m.ny, [&](int j) {
-    for (int i = 0; i < m.nx; ++i) {
-      if (m.wall_length(i, j) == 0) continue;
-      const double speed = std::hypot(0.5 * (s.u(i, j) + s.u(i + 1, j)), 0.5 * (s.v(i, j) + s.v(i, j + 1)));
-      w.wall_c(i, j) = m.wall_length(i, j) * wall_friction(params.closure, m.pipe.wall, speed, m.wall_distance(i, j),
-                                                           m.pipe.roughness, params.viscosity);
-    }
-  });
-}
-
-namespace {
-
-/// Conductances of a component: gamma of the cell on faces across its own direction, twice; mean of four cells on the
-/// others.
-void conduct(const Mesh& m, const MomentumEquation& c, const Field& gamma, Conductance& g) {
-  const Staggering& at = c.at;
-  for_each_item(0, m.ny + 1, [&](int j) {
-    const double *here = gamma.row(j), *below = gamma.row(j - 1);
-    const double *ax = at.area_x.row(j), *ay = at.area_y.row(j), *hx = at.hx.data() + 2;
-    double *gx = g.x.row(j), *gy = g.y.row(j);
-    const double hy = at.hy[j + 2];
-    const bool inside = j > 0 && j < m.ny;
-    if (c.is_u) {
-      const double across = inside ? 0.25 / hy : 0.0;
-      vector_loop(0, m.nx + 1, [&](int i) {
-        gx[i] = 2.0 * here[i - 1] * ax[i] / hx[i];
-        gy[i] = across * (here[i - 1] + here[i] + below[i - 1] + below[i]) * ay[i];
-      });
-    } else {
-      vector_loop(0, m.nx + 1, [&](int i) {
-        gx[i] = 0.25 * (here[i - 1] + here[i] + below[i - 1] + below[i]) * ax[i] / hx[i];
-        gy[i] = 2.0 * below[i] * ay[i] / hy;
-      });
-      gx[0] = gx[m.nx] = 0;
-    }
-  });
-}
-
-}  // namespace
-
-void assemble_momentum(const Mesh& m, const Boundary& b, const Params& params, double dt, double lead, const State& s,
-                       Workspace& w, const MomentumEquation& c) {
-  const Staggering& at = c.at;
-  Conductance& g = w.conductance;
-  const double rho = params.density;
-  convect(m, at, params.convection, w.face, c.value, c.rate, w.gamma, lead, w.rows, w.change);
-  for (const HandedOn& h : c.is_u ? w.handed_u : w.handed_v)
-    w.change(h.to_i, h.to_j) += h.share * w.change(h.from_i, h.from_j);
-  conduct(m, c, w.gamma, g);
-  const Field& crossing = c.is_u ? w.face.v : w.face.u;  // the other component, centred in time
-  const double* hx_u = at.hx.data() + 2;
-  const double* hx_p = m.dx_face_.data() + 2;
-
-  for_each_item(at.j0, at.j1, [&](int j) {
-    const double *V = at.volume.row(j), *P = at.pressed.row(j), *M = at.inertia.row(j), *beta = c.beta.row(j),
-                 *force = c.force.row(j);
-    const double *fr = c.friction.row(j), *u = c.value.row(j), *below = c.value.row(j - 1), *above = c.value.row(j + 1);
-    const double *gx = g.x.row(j), *gy = g.y.row(j), *gy_above = g.y.row(j + 1), *p = s.p.row(j),
-                 *p_below = s.p.row(j - 1);
-    double *rhs = w.change.row(j), *rate = c.rate.row(j), *factor = c.factor.row(j), *response = c.response.row(j);
-    double* outer = w.scratch.row(j);  // forces from the other component and from the pressure
-    // The other component's stress, d/dy (Gamma dv/dx) and d/dx (Gamma du/dy), fades with the openings of the two faces
-    // it is a difference of: beside a sliver that difference is no gradient, and as an explicit force it would drive
-    // the flow through the sliver instead of slowing it.
-    const Field& opening = c.is_u ? m.aperture_y : m.aperture_x;
-    const double *open = opening.row(j), *open_above = opening.row(j + 1), *open_below = opening.row(j - 1);
-    if (c.is_u) {
-      const double *v = crossing.row(j), *v_above = crossing.row(j + 1), h = at.hy[j + 2], h_above = at.hy[j + 3];
-      vector_loop(at.i0, at.i1, [&](int i) {
-        const double stress =
-            open_above[i - 1] * open_above[i] * gy_above[i] * h_above * (v_above[i] - v_above[i - 1]) -
-            open[i - 1] * open[i] * gy[i] * h * (v[i] - v[i - 1]);
-        outer[i] = (stress - P[i] / rho * (p[i] - p[i - 1])) / hx_p[i];
-      });
-    } else {
-      const double *v = crossing.row(j), *v_below = crossing.row(j - 1), scale = 1.0 / m.dy_face(j);
-      vector_loop(at.i0, at.i1, [&](int i) {
-        const double stress = open[i + 1] * open_below[i + 1] * gx[i + 1] * hx_u[i + 1] * (v[i + 1] - v_below[i + 1]) -
-                              open[i] * open_below[i] * gx[i] * hx_u[i] * (v[i] - v_below[i]);
-        outer[i] = (stress - P[i] / rho * (p[i] - p_below[i])) * scale;
-      });
-    }
-    const double lid = c.is_u && j == m.ny - 1 ? b.top_speed : 0.0;
-    vector_loop(at.i0, at.i1, [&](int i) {
-      const double diffusion = gx[i + 1] * (u[i + 1] - u[i]) - gx[i] * (u[i] - u[i - 1]) +
-                               gy_above[i] * (above[i] - u[i]) - gy[i] * (u[i] - below[i]);
-      const double friction = fr[i] * (u[i] - lid);
-      const double forces = diffusion + outer[i] - friction + V[i] / rho * (force[i] - beta[i] * u[i]);
-      const double per_inertia = 1.0 / M[i];
-      const double convection = rhs[i] * per_inertia;
-      const double drag = dt / rho * beta[i] * V[i] * per_inertia;
-      rhs[i] = dt * (convection + forces * per_inertia);
-      rate[i] = -convection;
-      factor[i] = 1.0 + drag + dt * fr[i] * per_inertia;
-      // Not times P/M: the correction is that of a potential flow, whose order cut faces must not spoil.  A sliver's
-      // predictor takes only P/M of the gradient; the pressure makes up for it within some steps.
-      response[i] = 1.0 / (1.0 + drag);
-    });
-  });
-}
-
-namespace {
-
-/// Share of the diffusive flux taken at the new time: one half (second order) while a step moves less than the cell's
-/// own width, more beyond, so that no step oscillates.
-double implicit_share(double number) { return number <= 1.0 ? 0.5 : 1.0 - 0.5 / number; }
-
-void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, State& s, Workspace& w,
-             const MomentumEquation& c) {
-  assemble_momentum(m, b, params, dt, dt, s, w, c);
-  const Staggering& at = c.at;
-  Conductance& g = w.conductance;
-  // Only the implicit share of each flux stays in the line systems.
-  for_each_item(0, m.ny + 1, [&](int j) {
-    double *gx = g.x.row(j), *gy = g.y.row(j);
-    const double *hx = at.hx.data() + 2, *ax = at.area_x.row(j), *ay = at.area_y.row(j);
-    const double hy = at.hy[j + 2];
-    vector_loop(0, m.nx + 1, [&](int i) {
-      gx[i] *= ax[i] > 0 ? implicit_share(dt * gx[i] / (hx[i] * ax[i])) : 0.0;
-      gy[i] *= ay[i] > 0 ? implicit_share(dt * gy[i] / (hy * ay[i])) : 0.0;
-    });
-  });
-  solve_lines_x(at, c.factor, g.x, dt, w.change, w.scratch);
-  for_each_item(at.j0, at.j1, [&](int j) {
-    double* d = w.change.row(j);
-    const double* factor = c.factor.row(j);
-    vector_loop(at.i0, at.i1, [&](int i) { d[i] *= factor[i]; });
-  });
-  solve_lines_y(at, c.factor, g.y, dt, w.change, w.scratch);
-  const Field& aperture = c.is_u ? m.aperture_x : m.aperture_y;
-  for_each_item(at.j0, at.j1, [&](int j) {
-    double* u = c.value.row(j);
-    const double *d = w.change.row(j), *a = aperture.row(j);
-    vector_loop(at.i0, at.i1, [&](int i) { u[i] = a[i] > 0 ? u[i] + d[i] : 0.0; });
-  });
-}
-
-/// Wall friction of floor, lid, closed sides and pipe gathered on the volumes of u and v.
-void gather_friction(const Mesh& m, const Boundary& b, const Params& params, const State& s, Workspace& w) {
-  w.friction_u.fill(0.0);
-  w.friction_v.fill(0.0);
-  const auto at_pipe = [&](std::vector<WallPart>& wall, bool is_u, Field& friction) {
+  for (const WallCell& cell : w.wall_cells) {
+    const int i = cell.i, j = cell.j;
+    const double speed = std::hypot(0.5 * (s.u(i, j) + s.u(i + 1, j)), 0.5 * (s.v(i, j) + s.v(i, j + 1)));
+    w.wall_c(i, j) = m.wall_length(i, j) * wall_friction(params.closure, m.pipe.wall, speed, m.wall_distance(i, j),
+                                                         m.pipe.roughness, params.viscosity);
+  }
+  for (int j = 0; j < m.ny; ++j) {
+    if (w.friction_u.owns(j)) std::fill_n(w.friction_u.own_row(j), m.nx, 0.0);
+    if (w.friction_v.owns(j)) std::fill_n(w.friction_v.own_row(j), m.nx, 0.0);
+  }
+  const auto at_pipe = [&](std::vector<WallPart>& wall, bool is_u, SharedRows& friction) {
     for (WallPart& part : wall) {
       // Speed where the component lives: itself and the mean of the other one's four values around.
       const int i = part.i, j = part.j, i_b = is_u ? i - 1 : i + 1, j_b = is_u ? j + 1 : j - 1;
@@ -200,79 +89,247 @@ void gather_friction(const Mesh& m, const Boundary& b, const Params& params, con
       const double across = 0.25 * (other(i, j) + other(i_b, j) + other(i, j_b) + other(i_b, j_b));
       part.friction = part.length * wall_friction(params.closure, m.pipe.wall, std::hypot(own(i, j), across),
                                                   part.distance, m.pipe.roughness, params.viscosity);
-      friction(i, j) = part.friction;
+      friction.own_row(j)[i] = part.friction;
     }
   };
   at_pipe(w.wall_u, true, w.friction_u);
   at_pipe(w.wall_v, false, w.friction_v);
+  double *floor = w.friction_u.own_row(0), *lid = w.friction_u.own_row(m.ny - 1);
   for (int i = 1; i < m.nx; ++i) {
-    w.friction_u(i, 0) += 0.5 * (w.floor_c[i - 1] * m.dx(i - 1) + w.floor_c[i] * m.dx(i));
-    w.friction_u(i, m.ny - 1) += 0.5 * (w.top_c[i - 1] * m.dx(i - 1) + w.top_c[i] * m.dx(i));
+    floor[i] += 0.5 * (w.floor_c[i - 1] * m.dx(i - 1) + w.floor_c[i] * m.dx(i));
+    lid[i] += 0.5 * (w.top_c[i - 1] * m.dx(i - 1) + w.top_c[i] * m.dx(i));
   }
-  const auto side = [&](Wall wall, int i) { return wall_friction(wall, 0, 0.5 * m.dx(i), 0, params.viscosity); };
-  const double west = side(b.west, 0), east = b.outlet ? 0.0 : side(b.east, m.nx - 1);
-  for (int j = 1; j < m.ny; ++j) {
-    // Water comes in straight: v is 0 on the inlet.
-    const double at_inlet = (w.gamma(0, j - 1) + w.gamma(0, j)) / m.dx(0);
-    w.friction_v(0, j) += (b.inlet ? at_inlet : west) * m.dy_face(j);
-    w.friction_v(m.nx - 1, j) += east * m.dy_face(j);
+}
+
+template <class Scheme>
+MomentumRows<Scheme>::MomentumRows(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s,
+                                   const Carrier& carrier, double dt, double lead, Workspace& w, const Component& c,
+                                   RowScratch::Rows& scratch)
+    : m_(mesh),
+      b_(boundary),
+      params_(params),
+      s_(s),
+      w_(w),
+      c_(c),
+      carrier_(mesh, carrier, scratch),
+      convect_(w.face_x, w.face_y, carrier_,
+               {c.at, c.value, c.before, c.convection, s.step > 0 ? 1.0 / s.step : 0.0, lead, false, s.nut,
+                params.viscosity},
+               scratch),
+      dt_(dt) {
+  for (double*& row : convection_) row = scratch.take();
+  for (double*& row : exchange_y_) row = scratch.take();
+  outer_ = scratch.take();
+}
+
+template <class Scheme>
+void MomentumRows<Scheme>::start(int ja, int jb) {
+  const Staggering& at = c_.at;
+  hands_on_ = std::any_of(c_.handed.begin(), c_.handed.end(),
+                          [&](const HandedOn& h) { return h.to_j >= ja && h.to_j < jb; });
+  // Rows beside the block hand on to it.
+  const int first = hands_on_ ? std::max(ja - 1, at.j0) : ja;
+  last_ = hands_on_ ? std::min(jb, at.j1 - 1) : jb - 1;
+  carrier_.start(first - 2 < -2 ? -2 : first - 2);
+  convect_.start(first);
+  converted_ = first;
+  j_ = ja;
+  fill_exchange_y(ja, exchange_y_[ja % 2]);
+}
+
+template <class Scheme>
+void MomentumRows<Scheme>::fill_exchange_x(int j, double* k) const {
+  const Staggering& at = c_.at;
+  const double *here = s_.nut.row(j), *below = s_.nut.row(j - 1);
+  const double *open = at.open_x.row(j), *per_hx = at.per_hx.data() + 2, nu = params_.viscosity;
+  const int nx = m_.nx;
+  // Along its own direction the diffusivity counts twice (2 Gamma du/dx).
+  if (c_.is_u)
+    return vector_loop(0, nx + 1, [&](int i) { k[i] = 2.0 * (nu + here[i - 1]) * open[i] * per_hx[i]; });
+  vector_loop(0, nx + 1, [&](int i) {
+    k[i] = (nu + 0.25 * (here[i - 1] + here[i] + below[i - 1] + below[i])) * open[i] * per_hx[i];
+  });
+  // Water comes in straight: v is 0 on the inlet.  Ghosts mirror v at walls and at the inlet.
+  const auto side = [&](Wall wall, int i) { return wall == Wall::no_slip ? nu / m_.dx(i) : 0.0; };
+  k[0] = b_.inlet ? (nu + 0.5 * (below[0] + here[0])) / m_.dx(0) : side(b_.west, 0);
+  k[nx] = b_.outlet ? 0.0 : side(b_.east, nx - 1);
+}
+
+template <class Scheme>
+void MomentumRows<Scheme>::fill_exchange_y(int j, double* k) const {
+  const Staggering& at = c_.at;
+  const double *here = s_.nut.row(j), *below = s_.nut.row(j - 1), *open = at.open_y.row(j);
+  const double nu = params_.viscosity;
+  if (c_.is_u) {
+    const double inside = j > 0 && j < m_.ny ? at.per_hy[j + 2] : 0.0;
+    vector_loop(0, m_.nx + 1, [&](int i) {
+      k[i] = inside * (nu + 0.25 * (here[i - 1] + here[i] + below[i - 1] + below[i])) * open[i];
+    });
+  } else {
+    const double per_h = at.per_hy[j + 2];
+    vector_loop(0, m_.nx + 1, [&](int i) { k[i] = 2.0 * (nu + below[i]) * open[i] * per_h; });
   }
+}
+
+template <class Scheme>
+void MomentumRows<Scheme>::hand_on(int j) {
+  const Staggering& at = c_.at;
+  for (const HandedOn& h : c_.handed)
+    if (h.to_j == j)
+      convection_[j % 4][h.to_i] += h.share * convection_[h.from_j % 4][h.from_i] * at.inertia(h.from_i, h.from_j) /
+                                    at.inertia(h.to_i, h.to_j);
+}
+
+template <class Scheme>
+void MomentumRows<Scheme>::next(double* d, double* kx) {
+  const Staggering& at = c_.at;
+  const int j = j_++;
+  for (const int ready = hands_on_ ? std::min(j + 1, last_) : j; converted_ <= ready; ++converted_)
+    convect_.next(convection_[converted_ % 4]);
+  if (hands_on_) hand_on(j);
+  fill_exchange_x(j, kx);
+  fill_exchange_y(j + 1, exchange_y_[(j + 1) % 2]);
+
+  const double *ky = exchange_y_[j % 2], *ky_above = exchange_y_[(j + 1) % 2], *convection = convection_[j % 4];
+  const double *u = c_.value.row(j), *below = c_.value.row(j - 1), *above = c_.value.row(j + 1);
+  const double *p = s_.p.row(j), *p_below = s_.p.row(j - 1), *open = at.open.row(j),
+               *per_inertia = at.per_inertia.row(j);
+  const double *per_width = at.per_width.data() + 2, per_height = at.per_height[j + 2];
+  const double per_rho = 1.0 / params_.density, dt = dt_;
+  double* outer = outer_;  // forces from the other component and from the pressure
+  // The other component's stress, d/dy (Gamma dv/dx) and d/dx (Gamma du/dy), fades with the openings of the two faces
+  // it is a difference of: beside a sliver that difference is no gradient, and as an explicit force it would drive the
+  // flow through the sliver instead of slowing it.
+  if (c_.is_u) {
+    const double *v = carrier_.v(j), *v_above = carrier_.v(j + 1);
+    const double *face = w_.face_y.row(j), *face_above = w_.face_y.row(j + 1);
+    const double h = per_height * at.hy[j + 2], h_above = per_height * at.hy[j + 3];
+    vector_loop(at.i0, at.i1, [&](int i) {
+      const double stress =
+          face_above[i - 1] * face_above[i] * ky_above[i] * h_above * (v_above[i] - v_above[i - 1]) -
+          face[i - 1] * face[i] * ky[i] * h * (v[i] - v[i - 1]);
+      outer[i] = (stress - open[i] * per_rho * (p[i] - p[i - 1])) * per_width[i];
+    });
+  } else {
+    const double *v = carrier_.u(j), *v_below = carrier_.u(j - 1), *hx = at.hx.data() + 2;
+    const double *face = w_.face_x.row(j), *face_below = w_.face_x.row(j - 1);
+    vector_loop(at.i0, at.i1, [&](int i) {
+      const double stress = face[i + 1] * face_below[i + 1] * kx[i + 1] * hx[i + 1] * (v[i + 1] - v_below[i + 1]) -
+                            face[i] * face_below[i] * kx[i] * hx[i] * (v[i] - v_below[i]);
+      outer[i] = (stress * per_width[i] - open[i] * per_rho * (p[i] - p_below[i])) * per_height;
+    });
+  }
+  vector_loop(at.i0, at.i1, [&](int i) {
+    const double diffusion = per_width[i] * (kx[i + 1] * (u[i + 1] - u[i]) - kx[i] * (u[i] - u[i - 1])) +
+                             per_height * (ky_above[i] * (above[i] - u[i]) - ky[i] * (u[i] - below[i]));
+    d[i] = dt * (convection[i] + per_inertia[i] * (diffusion + outer[i]));
+  });
+  // A ghost mirrors its neighbour, so the exchange with it weighs twice in the neighbour's own coefficient.
+  if (!c_.is_u) kx[0] *= 2.0, kx[m_.nx] *= 2.0;
+  if (c_.factor.owns(j)) add_load_and_friction(j, d);
+}
+
+template <class Scheme>
+void MomentumRows<Scheme>::add_load_and_friction(int j, double* d) {
+  const Staggering& at = c_.at;
+  const double *u = c_.value.row(j), *fr = c_.friction.row(j), *beta = c_.beta.row(j), *force = c_.force.row(j);
+  const double *volume = at.open_volume.row(j), *per_inertia = at.per_inertia.row(j);
+  const double *per_width = at.per_width.data() + 2, per_height = at.per_height[j + 2];
+  const double per_rho = 1.0 / params_.density, dt = dt_, lid = c_.is_u && j == m_.ny - 1 ? b_.top_speed : 0.0;
+  double *factor = c_.factor.own_row(j), *response = c_.response.own_row(j);
+  vector_loop(at.i0, at.i1, [&](int i) {
+    const double friction = dt * fr[i] * per_width[i] * per_height * per_inertia[i];
+    const double share = dt * per_rho * volume[i] * per_inertia[i];
+    const double drag = share * beta[i];
+    d[i] += share * force[i] - drag * u[i] - friction * (u[i] - lid);
+    factor[i] = 1.0 + drag + friction;
+    // Not times opening/inertia: the correction is that of a potential flow, whose order cut faces must not spoil.  A
+    // sliver's predictor takes only that share of the gradient; the pressure makes up for it within some steps.
+    response[i] = 1.0 / (1.0 + drag);
+  });
+}
+
+template class MomentumRows<Bounded>;
+template class MomentumRows<Hybrid>;
+
+namespace {
+
+/// next <- predicted component; w.convection <- its convection.
+template <class Scheme>
+void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, const State& s, Workspace& w,
+             const Component& c, Field& next) {
+  const Staggering& at = c.at;
+  const double* per_hx = at.per_hx.data() + 2;
+  w.rows.over_blocks(at.j0, at.j1, [&](int ja, int jb) {
+    constexpr int together = 8;
+    RowScratch::Rows scratch = w.rows.rows();
+    MomentumRows<Scheme> rows(m, b, params, s, centred_carrier(s, dt), dt, dt, w, c, scratch);
+    std::array<double*, together> kx{}, slope{};
+    for (int r = 0; r < together; ++r) kx[r] = scratch.take(), slope[r] = scratch.take();
+    const auto keep_y = [&](int j) {
+      double* k = w.exchange_y.row(j);
+      std::copy_n(rows.exchange_y(j), m.nx, k);
+      keep_implicit_part(at.i0, at.i1, dt, [per_h = at.per_hy[j + 2]](int) { return per_h; }, k);
+    };
+    rows.start(ja, jb);
+    for (int j = ja; j < jb;) {
+      std::array<RowSystem, together> systems;
+      int count = 0;
+      for (; j < jb && count < together; ++j, ++count) {
+        double* d = w.change.row(j);
+        rows.next(d, kx[count]);
+        std::copy_n(rows.convection(j) + at.i0, at.i1 - at.i0, w.convection.row(j) + at.i0);
+        keep_y(j);
+        keep_implicit_part(at.i0, at.i1 + 1, dt, [&](int i) { return per_hx[i]; }, kx[count]);
+        systems[count] = {c.factor.row(j), at.per_inertia.row(j), kx[count], d, slope[count]};
+      }
+      solve_rows(at, systems.data(), count);
+    }
+    if (jb == at.j1) keep_y(jb);
+  });
+  over_columns(at, w.columns, [&](int ia, int ib) {
+    double *d = w.columns.piece(0), *slope = w.columns.piece(1);
+    solve_columns(at, c.factor, w.change, ia, ib, [&](int j) { return w.exchange_y.row(j); }, d, slope);
+    for (int j = at.j0; j < at.j1; ++j) {
+      const double *u = c.value.row(j), *open = at.open.row(j), *change = d + j * ColumnScratch::columns - ia;
+      double* to = next.row(j);
+      vector_loop(ia, ib, [&](int i) { to[i] = open[i] > 0 ? u[i] + change[i] : 0.0; });
+    }
+  });
 }
 
 /// Open outlet: u is carried out at its own speed; the faces feel the drag of the grains and the pressure drop to p =
 /// 0.
-void predict_outlet(const Mesh& m, const Params& params, double dt, State& s, Workspace& w) {
+void predict_outlet(const Mesh& m, const Params& params, double dt, const State& s, Workspace& w) {
   const int n = m.nx;
-  const double half = 0.5 * m.dx(n - 1);
+  const double half = 0.5 * m.dx(n - 1), ahead = centred_carrier(s, dt).ahead, rho = params.density;
   for (int j = 0; j < m.ny; ++j) {
-    const double u = s.u(n, j), rho = params.density;
-    const double drag = dt * s.load.beta_u(n, j) / rho;
+    const double u = s.u(n, j), carrier = u + ahead * (u - s.u_old(n, j));
     const double gradient = -s.p(n - 1, j) / half;
-    const double convection = std::max(w.face.u(n, j), 0.0) * (u - s.u_old(n - 1, j)) / m.dx(n - 1);
-    w.response_u(n, j) = 1.0 / (1.0 + drag);
-    s.u(n, j) = (u - dt * convection + dt / rho * (s.load.force_u(n, j) - gradient)) / (1.0 + drag);
+    const double convection = std::max(carrier, 0.0) * (u - s.u(n - 1, j)) / m.dx(n - 1);
+    const double beta = j < s.load.top ? s.load.beta_u(n, j) : 0.0, force = j < s.load.top ? s.load.force_u(n, j) : 0.0;
+    const double drag = dt * beta / rho;
+    if (w.response_u.owns(j)) w.response_u.own_row(j)[n] = 1.0 / (1.0 + drag);
+    w.next_a(n, j) = (u - dt * convection + dt / rho * (force - gradient)) / (1.0 + drag);
   }
 }
 
 }  // namespace
 
-void prepare_momentum(const Mesh& m, const Boundary& b, const Params& params, const State& s, Workspace& w) {
-  for_each_item(-2, m.ny + 2, [&](int j) {
-    const double* nut = s.nut.row(j);
-    double* gamma = w.gamma.row(j);
-    const double nu = params.viscosity;
-    vector_loop(-2, m.nx + 2, [&](int i) { gamma[i] = nu + nut[i]; });
-  });
-  gather_friction(m, b, params, s, w);
-}
-
-MomentumEquation u_equation(const Staggering& at_u, State& s, Workspace& w) {
-  return {at_u, true, s.u, s.rate_u, s.load.beta_u, s.load.force_u, w.friction_u, w.base_u, w.response_u};
-}
-MomentumEquation v_equation(const Staggering& at_v, State& s, Workspace& w) {
-  return {at_v, false, s.v, s.rate_v, s.load.beta_v, s.load.force_v, w.friction_v, w.base_v, w.response_v};
-}
-
 void predict_velocity(const Mesh& m, const Boundary& b, const Params& params, const Staggering& at_u,
                       const Staggering& at_v, double dt, State& s, Workspace& w) {
-  prepare_momentum(m, b, params, s, w);
-  std::copy(s.u.storage().begin(), s.u.storage().end(), s.u_old.storage().begin());
-  std::copy(s.v.storage().begin(), s.v.storage().end(), s.v_old.storage().begin());
-  predict(m, b, params, dt, s, w, u_equation(at_u, s, w));
-  predict(m, b, params, dt, s, w, v_equation(at_v, s, w));
+  w.own_rows(s.load.top);
+  with_scheme(params.convection, [&](auto scheme) {
+    using Scheme = decltype(scheme);
+    predict<Scheme>(m, b, params, dt, s, w, u_component(at_u, s, w), w.next_a);
+    s.convection_u.swap(w.convection);
+    predict<Scheme>(m, b, params, dt, s, w, v_component(at_v, s, w), w.next_b);
+    s.convection_v.swap(w.convection);
+  });
   if (b.outlet) predict_outlet(m, params, dt, s, w);
-}
-
-void complete_rates(const Staggering& at_u, const Staggering& at_v, double dt, State& s) {
-  const auto one = [&](const Staggering& at, const Field& value, const Field& old, Field& rate) {
-    for_each_item(at.j0, at.j1, [&](int j) {
-      const double *a = value.row(j), *o = old.row(j);
-      double* r = rate.row(j);
-      vector_loop(at.i0, at.i1, [&](int i) { r[i] += (a[i] - o[i]) / dt; });
-    });
-  };
-  one(at_u, s.u, s.u_old, s.rate_u);
-  one(at_v, s.v, s.v_old, s.rate_v);
+  s.u_old.swap(s.u), s.u.swap(w.next_a);
+  s.v_old.swap(s.v), s.v.swap(w.next_b);
+  fill_velocity_ghosts(m, b, s.u, s.v);
 }
 
 }  // namespace livebed::flow

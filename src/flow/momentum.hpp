@@ -7,61 +7,97 @@ namespace livebed::flow {
 
 /// Fields that one step needs besides the state; allocated once.
 struct Workspace {
-  FaceFlow face;      ///< time-centred flow through the faces
-  base::Field gamma;  ///< nu + nut at cell centres [m2/s]
+  base::SharedRows face_x, face_y;  ///< openings of the cell faces [-]
+  std::vector<double> per_dx, per_dx_face;   ///< 1 / widths and distances of cells [1/m], two ghosts in front
   std::vector<HandedOn> handed_u, handed_v;
-  std::vector<WallPart> wall_u, wall_v;  ///< the pipe as u and v meet it
-  base::Field wall_c;                    ///< friction factor x length of the pipe's surface in a cell [m2/s]
-  std::vector<double> floor_c, top_c;    ///< friction factor of floor and lid above cell i [m/s]
-  base::Field base_u, base_v;            ///< implicit factor of drag and friction in the momentum lines [-]
-  base::Field response_u, response_v;    ///< share of a pressure gradient that accelerates the face, after drag [-]
-  base::Field friction_u, friction_v;    ///< wall friction of the volumes of u and v [m2/s]
-  Conductance conductance;
-  base::Field change, scratch, base;
+  std::vector<WallPart> wall_u, wall_v;        ///< the pipe as u and v meet it
+  std::vector<WallCell> wall_cells;            ///< the cells that hold a piece of its surface
+  base::Field wall_c;                          ///< friction factor x length of the pipe's surface in a cell [m2/s]
+  std::vector<double> floor_c, top_c;          ///< friction factor of floor and lid above cell i [m/s]
+  base::SharedRows friction_u, friction_v;     ///< wall friction of the volumes of u and v [m2/s]
+  base::SharedRows factor_u, factor_v;         ///< implicit factor of drag and friction [-]
+  base::SharedRows response_u, response_v;     ///< share of a pressure gradient that accelerates the face, after drag [-]
+  base::SharedRows ones;
+  base::Field next_a, next_b;                  ///< u, v, then k and epsilon at the new time, until they take their places
+  base::Field convection, convection_e;        ///< likewise
+  base::Field change, change_e, exchange_y;    ///< right-hand side and vertical exchange of the line systems
   base::Field phi, outflow, c_x, c_y, c_boundary;
   RowScratch rows;
+  ColumnScratch columns;
   explicit Workspace(const Mesh& mesh);
+
+  /// Rows below `top` get factors and responses of their own: those with grains in them, or all for SIMPLE.
+  void own_rows(int top);
+
+private:
+  std::vector<char> walls_u_, walls_v_;
+  int nx_, owned_ = 0;
 };
 
-/// Time-centred advecting flow: u + dt/(2 dt_old) (u - u_old).  Both levels are free of divergence, so is their blend.
-void center_face_flow(const Mesh& mesh, const State& s, double dt, FaceFlow& face);
+/// The velocity that carries all quantities through the step to come: u + dt/(2 dt_old) (u - u_old), centred in time.
+/// Both levels are free of divergence, so is their blend.  dt = 0: u as it is.
+Carrier centred_carrier(const State& s, double dt);
 
-/// Friction factors of floor, lid and pipe from the present flow.
+/// Friction factors of floor, lid and pipe from the present flow, and their sums over the volumes of u and v.
 void evaluate_walls(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s, Workspace& w);
 
-/// One velocity component.  gamma enters twice along the direction it points to (2 Gamma du/dx).
-struct MomentumEquation {
+/// One velocity component and what belongs to it.
+struct Component {
   const Staggering& at;
   bool is_u;
-  base::Field& value;
-  base::Field& rate;
-  const base::Field& beta;
-  const base::Field& force;
-  const base::Field& friction;
-  base::Field& factor;    ///< base of the line systems
-  base::Field& response;  ///< share of a pressure gradient that accelerates the face
+  base::Field &value, &before, &convection;
+  const base::Field &beta, &force;
+  const base::SharedRows& friction;
+  base::SharedRows &factor, &response;
+  const std::vector<HandedOn>& handed;
 };
-MomentumEquation u_equation(const Staggering& at_u, State& s, Workspace& w);
-MomentumEquation v_equation(const Staggering& at_v, State& s, Workspace& w);
+Component u_component(const Staggering& at_u, State& s, Workspace& w);
+Component v_component(const Staggering& at_v, State& s, Workspace& w);
 
-/// gamma and the wall friction of the volumes, from the present flow.
-void prepare_momentum(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s, Workspace& w);
+/// Eq. 2-3 row after row upwards, without the new pressure: what accelerates a component now, the old pressure among it.
+template <class Scheme>
+class MomentumRows {
+public:
+  /// dt: the rows come times dt [s]; lead: the convective face values run half of it ahead [s], 0 for a balance.
+  MomentumRows(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s, const Carrier& carrier,
+               double dt, double lead, Workspace& w, const Component& c, RowScratch::Rows& scratch);
 
-/// w.change <- dt x acceleration by all forces of Eq. 2-3 on the present flow, the old pressure among them;
-/// w.conductance
-/// <- of the faces; factor <- 1 + dt x (drag + friction); response <- with drag alone; rate <- - convection.
-/// lead: how far the face values run ahead in time [s]; 0 for a steady or fully implicit balance.
-void assemble_momentum(const Mesh& mesh, const Boundary& boundary, const Params& params, double dt, double lead,
-                       const State& s, Workspace& w, const MomentumEquation& c);
+  /// Begins with row ja of the block [ja, jb).
+  void start(int ja, int jb);
+  /// The next row j: d <- dt x acceleration, kx <- exchange across west faces (diffusivity x opening / distance) [m/s];
+  /// factor <- 1 + dt x (drag + friction), response <- with drag alone where the row has its own; convection() and
+  /// exchange_y(j), exchange_y(j + 1) are those of the row.
+  void next(double* d, double* kx);
+  const double* convection(int j) const { return convection_[j % 4]; }
+  const double* exchange_y(int j) const { return exchange_y_[j % 2]; }
+  const CarrierRows& carrier() const { return carrier_; }
 
-/// Eq. 2-3 without the new pressure: u, v <- predicted velocity.  Convection explicit and time-centred; diffusion by
-/// two line sweeps (centred in time where that cannot oscillate); drag and wall friction implicit.  On return
-/// state.rate_u, rate_v hold minus the convective acceleration: complete_rates turns them into the acceleration without
-/// convection.
+private:
+  void fill_exchange_x(int j, double* k) const;
+  void fill_exchange_y(int j, double* k) const;
+  void hand_on(int j);
+  void add_load_and_friction(int j, double* d);
+
+  const Mesh& m_;
+  const Boundary& b_;
+  const Params& params_;
+  const State& s_;
+  Workspace& w_;
+  Component c_;
+  CarrierRows carrier_;
+  ConvectionRows<Scheme> convect_;
+  double dt_;
+  int j_ = 0, last_ = 0, converted_ = 0;
+  bool hands_on_ = false;
+  std::array<double*, 4> convection_{};
+  std::array<double*, 2> exchange_y_{};
+  double* outer_;
+};
+
+/// Eq. 2-3 without the new pressure: u, v <- predicted velocity, u_old, v_old <- the one before.  Convection explicit
+/// and time-centred; diffusion by two line sweeps (centred in time where that cannot oscillate); drag and wall friction
+/// implicit.
 void predict_velocity(const Mesh& mesh, const Boundary& boundary, const Params& params, const Staggering& at_u,
                       const Staggering& at_v, double dt, State& s, Workspace& w);
-
-/// rate = (u - u_old)/dt - convection, for the face values of the next step.
-void complete_rates(const Staggering& at_u, const Staggering& at_v, double dt, State& s);
 
 }  // namespace livebed::flow

@@ -1,45 +1,324 @@
 #pragma once
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
 #include "base/field.hpp"
+#include "base/loops.hpp"
+#include "base/shared_rows.hpp"
 #include "flow/mesh.hpp"
 #include "flow/params.hpp"
+#include "flow/schemes.hpp"
 #include "flow/staggering.hpp"
 
 /// The finite-volume operators that u, v, k and epsilon share.
+///
+/// A step works on blocks of rows: what a row needs on its way from velocity to right-hand side lives in rows of
+/// scratch that stay in the second cache, and the fields pass through memory once.
 namespace livebed::flow {
 
-/// Flow through the cell faces, centred in the time step: it carries everything.
-struct FaceFlow {
-  base::Field u, v;    ///< velocity [m/s]
-  base::Field qx, qy;  ///< volume flux per unit of depth through west and south faces [m2/s]
-};
-
-/// Row scratch of `convect`: allocated once, a few rows for each block of rows.
-struct RowScratch {
-  static constexpr int rows_a_block = 16;
-  static constexpr int buffers = 6;
-  base::Field rows;
+/// Scratch of each thread: rows as long as those of the fields.
+class RowScratch {
+public:
   RowScratch() = default;
-  explicit RowScratch(const Mesh& mesh) : rows(mesh.nx, buffers * ((mesh.ny + rows_a_block - 1) / rows_a_block)) {}
+  explicit RowScratch(const Mesh& mesh) : nx_(mesh.nx), ny_(mesh.ny) {}
+  /// Makes room for all threads; before a loop that takes rows.
+  void fit() {
+    while (static_cast<int>(of_thread_.size()) < base::threads()) of_thread_.emplace_back(nx_, rows_a_thread);
+  }
+
+  /// Rows that one thread takes for one block, given back all together.
+  class Rows {
+  public:
+    explicit Rows(base::Field& field) : field_(&field) {}
+    double* take() { return field_->row(next_++); }
+
+  private:
+    base::Field* field_;
+    int next_ = 0;
+  };
+  Rows rows() { return Rows(of_thread_[base::thread_index()]); }
+
+  /// Rows in a block: as many as keep its scratch in the second cache.
+  int block() const { return nx_ <= 2000 ? 16 : 8; }
+  /// Calls body(ja, jb) for blocks of the rows [j0, j1), on all threads.  The blocks depend on the grid alone.
+  template <class Body>
+  void over_blocks(int j0, int j1, Body&& body) {
+    fit();
+    const int size = block();
+    base::for_each_item(0, (ny_ + size - 1) / size, [&](int k) {
+      const int ja = std::max(j0, k * size), jb = std::min(j1, (k + 1) * size);
+      if (ja < jb) body(ja, jb);
+    });
+  }
+
+private:
+  static constexpr int rows_a_thread = 96;
+  int nx_ = 0, ny_ = 0;
+  std::vector<base::Field> of_thread_;
 };
 
-/// out = - sum over faces of flux x face value of phi, integrated over each volume [phi m2/s].
-/// rate: what else changes phi [phi/s], for time-centred face values; gamma: diffusivity at cell centres (hybrid
-/// scheme).
-void convect(const Mesh& mesh, const Staggering& at, Convection scheme, const FaceFlow& flow, const base::Field& phi,
-             const base::Field& rate, const base::Field& gamma, double dt, RowScratch& scratch, base::Field& out);
-
-/// Diffusive conductances of the faces of the volumes [m2/s]: area x diffusivity / distance.
-struct Conductance {
-  base::Field x, y;
+/// A velocity between two levels: now + ahead x (now - before).  It carries everything.
+struct Carrier {
+  const base::Field &u, &v, &u_before, &v_before;
+  double ahead = 0;  ///< [-]
 };
 
-/// Tridiagonal systems along grid lines, all of one direction in place:
-///   (base + g_before + g_after) phi - g_before phi_before - g_after phi_after = phi_given,   g = dt x conductance /
-///   inertia.
-/// base is the factor of the unknown alone (1 + dt x drag ...).  What lies outside the unknowns counts as 0.
-void solve_lines_x(const Staggering& at, const base::Field& base, const base::Field& conductance, double dt,
-                   base::Field& phi, base::Field& scratch);
-void solve_lines_y(const Staggering& at, const base::Field& base, const base::Field& conductance, double dt,
-                   base::Field& phi, base::Field& scratch);
+/// Rows of the carrying velocity with their ghosts, eight at a time.
+class CarrierRows {
+public:
+  CarrierRows(const Mesh& mesh, const Carrier& carrier, RowScratch::Rows& scratch)
+      : nx_(mesh.nx), carrier_(carrier) {
+    for (int k = 0; k < kept; ++k) u_[k] = scratch.take(), v_[k] = scratch.take();
+  }
+  /// Rows first to last, and those after them as they are asked for.
+  void start(int first) { next_ = first; }
+  void reach(int j) {
+    for (; next_ <= j; ++next_) {
+      const double *u = carrier_.u.row(next_), *v = carrier_.v.row(next_);
+      const double *ub = carrier_.u_before.row(next_), *vb = carrier_.v_before.row(next_);
+      double *to_u = u_[slot(next_)], *to_v = v_[slot(next_)];
+      const double ahead = carrier_.ahead;
+      base::vector_loop(-2, nx_ + 2, [&](int i) {
+        to_u[i] = u[i] + ahead * (u[i] - ub[i]);
+        to_v[i] = v[i] + ahead * (v[i] - vb[i]);
+      });
+    }
+  }
+  const double* u(int j) const { return u_[slot(j)]; }
+  const double* v(int j) const { return v_[slot(j)]; }
+
+private:
+  static constexpr int kept = 8;
+  static int slot(int j) { return (j + kept) % kept; }
+  int nx_, next_ = 0;
+  Carrier carrier_;
+  std::array<double*, kept> u_{}, v_{};
+};
+
+/// What is carried, and what the face values know of its change in time.
+struct Carried {
+  const Staggering& at;
+  const base::Field& value;
+  const base::Field& before;      ///< one step ago
+  const base::Field& convection;  ///< its rate of change by convection in that step [1/s]
+  double per_last_step = 0;       ///< 1 / that step [1/s]; 0 = nothing known
+  double dt = 0;                  ///< the face values are centred in the step to come [s]; 0 = taken as they are
+  bool positive = false;          ///< no half-step change may come near to emptying a cell
+  const base::Field& nut;         ///< with nu: diffusivity at cell centres (hybrid scheme)
+  double nu = 0;
+};
+
+/// Rate of change by convection, row after row upwards: - sum over faces of flux x face value, over the inertia [1/s].
+/// Rows of the carrier must reach two rows above the row in hand.
+template <class Scheme>
+class ConvectionRows {
+public:
+  ConvectionRows(const base::SharedRows& face_x, const base::SharedRows& face_y, CarrierRows& carrier,
+                 const Carried& carried, RowScratch::Rows& scratch)
+      : face_x_(face_x), face_y_(face_y), carrier_(carrier), q_(carried) {
+    for (double** row : {&west_, &south_, &north_, &across_x_, &across_y_below_, &across_y_}) *row = scratch.take();
+  }
+
+  /// The row that comes next.
+  void start(int j) {
+    half_changes(j - 1, across_x_, across_y_below_);
+    half_changes(j, across_x_, across_y_);
+    south_fluxes(j, across_y_below_, across_y_, south_);
+    j_ = j;
+  }
+
+  /// The next row into out.
+  void next(double* out) {
+    const Staggering& at = q_.at;
+    west_fluxes(j_);
+    std::swap(across_y_below_, across_y_);
+    half_changes(j_ + 1, across_x_, across_y_);
+    south_fluxes(j_ + 1, across_y_below_, across_y_, north_);
+    const double *per_inertia = at.per_inertia.row(j_), *per_width = at.per_width.data() + 2;
+    const double per_height = at.per_height[j_ + 2];
+    const double *west = west_, *south = south_, *north = north_;
+    base::vector_loop(at.i0, at.i1, [&](int i) {
+      out[i] = per_inertia[i] * (per_width[i] * (west[i] - west[i + 1]) + per_height * (south[i] - north[i]));
+    });
+    std::swap(south_, north_);
+    ++j_;
+  }
+
+private:
+  /// Half-step changes of the nodes of row j by all but the flow across x faces, and by all but that across y faces.
+  void half_changes(int j, double* across_x, double* across_y) {
+    const Staggering& at = q_.at;
+    const int sx = at.shift_x, sy = at.shift_y;
+    carrier_.reach(j + 1);
+    if (q_.dt == 0) {
+      base::vector_loop(at.i0 - 1, at.i1 + 1, [&](int i) { across_x[i] = across_y[i] = 0.0; });
+      return;
+    }
+    const double *p = q_.value.row(j), *below = q_.value.row(j - 1), *above = q_.value.row(j + 1),
+                 *before = q_.before.row(j), *convection = q_.convection.row(j);
+    const double *ua = carrier_.u(j - sy) - sx, *ub = carrier_.u(j), *va = carrier_.v(j - sy) - sx,
+                 *vb = carrier_.v(j), *vc = carrier_.v(j - sy + 1) - sx, *vd = carrier_.v(j + 1);
+    const double* per_hx = at.per_hx.data() + 2;
+    const double per_below = at.per_hy[j + 2], per_above = at.per_hy[j + 3];
+    const double half = 0.5 * q_.dt, per_last = q_.per_last_step;
+    const double least = q_.positive ? 0.25 : std::numeric_limits<double>::infinity();
+    const auto run = [&](auto limited) {
+      base::vector_loop(at.i0 - 1, at.i1 + 1, [&](int i) {
+        const double u = 0.25 * (ua[i] + ub[i] + ua[i + 1] + ub[i + 1]);
+        const double v = 0.25 * (va[i] + vb[i] + vc[i] + vd[i]);
+        const double slope_x = u > 0 ? (p[i] - p[i - 1]) * per_hx[i] : (p[i + 1] - p[i]) * per_hx[i + 1];
+        const double slope_y = v > 0 ? (p[i] - below[i]) * per_below : (above[i] - p[i]) * per_above;
+        double alone = half * (per_last * (p[i] - before[i]) - convection[i]);
+        if constexpr (limited) alone = std::min(std::max(alone, -least * p[i]), least * p[i]);
+        across_x[i] = alone - half * v * slope_y;
+        across_y[i] = alone - half * u * slope_x;
+      });
+    };
+    if (q_.positive)
+      run(std::true_type{});
+    else
+      run(std::false_type{});
+  }
+
+  void west_fluxes(int j) {
+    const Staggering& at = q_.at;
+    const int sx = at.shift_x, sy = at.shift_y;
+    const double *p = q_.value.row(j), *nut = q_.nut.row(j), *change = across_x_;
+    const double *ua = carrier_.u(j - sy) - sx, *ub = carrier_.u(j);
+    const double *open_a = face_x_.row(j - sy) - sx, *open_b = face_x_.row(j);
+    const double *hx = at.hx.data() + 2, *per_hx = at.per_hx.data() + 2, *before = at.to_west.data() + 2,
+                 *after = at.from_west.data() + 2;
+    const double share_a = at.share_y_before[j + 2], share_b = at.share_y[j + 2], dt = q_.dt, nu = q_.nu;
+    double* west = west_;
+    base::vector_loop(at.i0, at.i1 + 1, [&](int i) {
+      const Stencil4 s{p[i - 2],      p[i - 1],  p[i],          p[i + 1],  hx[i],
+                       per_hx[i - 1], per_hx[i], per_hx[i + 1], before[i], after[i]};
+      west[i] = (share_a * ua[i] * open_a[i] + share_b * ub[i] * open_b[i]) *
+                Scheme::face(s, 0.5 * (ua[i] + ub[i]), dt, change[i - 1], change[i], nu + 0.5 * (nut[i - 1] + nut[i]));
+    });
+  }
+
+  void south_fluxes(int j, const double* change_below, const double* change, double* flux) {
+    const Staggering& at = q_.at;
+    const int sx = at.shift_x, sy = at.shift_y;
+    const double *mm = q_.value.row(j - 2), *m = q_.value.row(j - 1), *p = q_.value.row(j), *pp = q_.value.row(j + 1);
+    const double *va = carrier_.v(j - sy) - sx, *vb = carrier_.v(j);
+    const double *open_a = face_y_.row(j - sy) - sx, *open_b = face_y_.row(j);
+    const double *nut_below = q_.nut.row(j - 1), *nut = q_.nut.row(j);
+    const double *share_a = at.share_x_before.data() + 2, *share_b = at.share_x.data() + 2;
+    const double h = at.hy[j + 2], per_mm = at.per_hy[j + 1], per_h = at.per_hy[j + 2], per_pp = at.per_hy[j + 3];
+    const double before = at.to_south[j + 2], after = at.from_south[j + 2], dt = q_.dt, nu = q_.nu;
+    base::vector_loop(at.i0, at.i1, [&](int i) {
+      const Stencil4 s{mm[i], m[i], p[i], pp[i], h, per_mm, per_h, per_pp, before, after};
+      flux[i] = (share_a[i] * va[i] * open_a[i] + share_b[i] * vb[i] * open_b[i]) *
+                Scheme::face(s, 0.5 * (va[i] + vb[i]), dt, change_below[i], change[i],
+                             nu + 0.5 * (nut_below[i] + nut[i]));
+    });
+  }
+
+  const base::SharedRows &face_x_, &face_y_;
+  CarrierRows& carrier_;
+  Carried q_;
+  double *west_ = nullptr, *south_ = nullptr, *north_ = nullptr, *across_x_ = nullptr, *across_y_below_ = nullptr,
+         *across_y_ = nullptr;
+  int j_ = 0;
+};
+
+/// Calls body(Scheme{}) with the convection scheme of a case.
+template <class Body>
+void with_scheme(Convection scheme, Body&& body) {
+  if (scheme == Convection::hybrid)
+    body(Hybrid{});
+  else
+    body(Bounded{});
+}
+
+/// Share of a diffusive flux that is taken at the new time: one half (second order in time) while a step spreads less
+/// than the node's own distance, number = dt diffusivity / h^2 <= 1; more beyond, so that no step oscillates.
+inline double implicit_share(double number) { return number <= 1.0 ? 0.5 : 1.0 - 0.5 / number; }
+
+/// k <- dt x implicit share x k for entries [i0, i1) of a row of exchange velocities, k = diffusivity x opening / h
+/// [m/s]; per_h(i) = 1/h [1/m].
+template <class PerH>
+void keep_implicit_part(int i0, int i1, double dt, PerH per_h, double* k) {
+  if (base::vector_largest(i0, i1, 0.0, [&](int i) { return k[i] * per_h(i); }) * dt <= 1.0)
+    base::vector_loop(i0, i1, [&](int i) { k[i] *= 0.5 * dt; });
+  else
+    base::vector_loop(i0, i1, [&](int i) { k[i] *= dt * implicit_share(dt * k[i] * per_h(i)); });
+}
+
+/// One row of unknowns d along x, solved in place:
+///   (factor + w + e) d - w d_west - e d_east = d_given,   w = k_west / width / inertia, e = k_east / width / inertia,
+/// with k from keep_implicit_part [m].  What lies outside the unknowns is 0.
+struct RowSystem {
+  const double *factor, *per_inertia, *k;
+  double *d, *slope;  ///< slope is scratch
+};
+/// Several rows side by side: the recurrence runs along each, so vectors run across them.
+void solve_rows(const Staggering& at, const RowSystem* rows, int count);
+
+/// Scratch of `solve_columns`, one piece for each thread.
+class ColumnScratch {
+public:
+  static constexpr int columns = 64;
+  ColumnScratch() = default;
+  explicit ColumnScratch(const Mesh& mesh) : ny_(mesh.ny) {}
+  void fit() {
+    while (static_cast<int>(of_thread_.size()) < base::threads())
+      of_thread_.emplace_back(static_cast<std::size_t>(pieces) * columns * (ny_ + 1));
+  }
+  /// Piece n of the calling thread: rows of 64 values, from row 0 on.
+  double* piece(int n) { return of_thread_[base::thread_index()].data() + static_cast<std::size_t>(n) * columns * (ny_ + 1); }
+
+private:
+  static constexpr int pieces = 4;
+  int ny_ = 0;
+  std::vector<base::AlignedVector<double>> of_thread_;
+};
+
+/// Columns [ia, ib) along y, at most 64, solved into `d` (rows of 64 values):
+///   (factor + s + n) d - s d_south - n d_north = factor x given,   s = k_south / height / inertia, n = k_north / ...,
+/// with k(j)[i] from keep_implicit_part [m].  What lies outside the unknowns is 0.
+template <class K>
+void solve_columns(const Staggering& at, const base::SharedRows& factor, const base::Field& given, int ia, int ib, K&& k,
+                   double* d, double* slope) {
+  constexpr int wide = ColumnScratch::columns;
+  const int n = ib - ia;
+  for (int j = at.j0; j < at.j1; ++j) {
+    const double *south_k = k(j) + ia, *north_k = k(j + 1) + ia, *f = factor.row(j) + ia;
+    const double *per_inertia = at.per_inertia.row(j) + ia, *g = given.row(j) + ia;
+    const double per_height = at.per_height[j + 2], has_below = j > at.j0 ? 1.0 : 0.0;
+    double *here = d + j * wide, *s = slope + j * wide;
+    const double* below = j > at.j0 ? here - wide : here;
+    const double* s_below = j > at.j0 ? s - wide : s;
+    base::vector_loop(0, n, [&](int i) {
+      const double scale = per_height * per_inertia[i];
+      const double south = scale * south_k[i], north = scale * north_k[i];
+      const double from_south = has_below * south;
+      const double pivot = 1.0 / (f[i] + south + north - from_south * s_below[i]);
+      s[i] = north * pivot;
+      here[i] = (f[i] * g[i] + from_south * below[i]) * pivot;
+    });
+  }
+  for (int j = at.j1 - 2; j >= at.j0; --j) {
+    double* here = d + j * wide;
+    const double *s = slope + j * wide, *above = here + wide;
+    base::vector_loop(0, n, [&](int i) { here[i] += s[i] * above[i]; });
+  }
+}
+
+/// Calls body(ia, ib) for blocks of the columns of `at`, on all threads.
+template <class Body>
+void over_columns(const Staggering& at, ColumnScratch& scratch, Body&& body) {
+  scratch.fit();
+  constexpr int wide = ColumnScratch::columns;
+  base::for_each_item(0, (at.i1 - at.i0 + wide - 1) / wide, [&](int k) {
+    const int ia = at.i0 + k * wide;
+    body(ia, std::min(at.i1, ia + wide));
+  });
+}
 
 }  // namespace livebed::flow

@@ -14,22 +14,24 @@ inline double limited_slope(double a, double b) {
 
 /// The four nodes about a face and their distances: mm, m | p, pp.
 struct Stencil4 {
-  double mm, m, p, pp;          ///< values
-  double h_mm, h, h_pp;         ///< distances mm-m, m-p, p-pp [m]
-  double to_face_m, to_face_p;  ///< distances of m and p from the face [m]
+  double mm, m, p, pp;             ///< values
+  double h;                        ///< distance m-p [m]
+  double per_mm, per_h, per_pp;    ///< 1 / distances mm-m, m-p, p-pp [1/m]
+  double to_face_m, to_face_p;     ///< distances of m and p from the face [m]
 };
 
 /// Bounded second order in space and time (a Hancock step): upwind node plus the limited slope over the part of the
 /// cell that does not pass the face within dt.  half_m, half_p: what else changes nodes m and p within dt/2 (cross
 /// flow, forces).
 struct Bounded {
-  double operator()(const Stencil4& s, double velocity, double dt, double half_m, double half_p, double) const {
+  static double face(const Stencil4& s, double velocity, double dt, double half_m, double half_p, double) {
     const bool forward = velocity > 0;
-    const double middle = (s.p - s.m) / s.h;
-    const double behind = forward ? (s.m - s.mm) / s.h_mm : (s.pp - s.p) / s.h_pp;
+    const double middle = (s.p - s.m) * s.per_h;
+    const double behind = forward ? (s.m - s.mm) * s.per_mm : (s.pp - s.p) * s.per_pp;
     const double slope = limited_slope(behind, middle);
     const double travel = 0.5 * velocity * dt;
-    return forward ? s.m + slope * (s.to_face_m - travel) + half_m : s.p - slope * (s.to_face_p + travel) + half_p;
+    const double node = forward ? s.m + half_m : s.p + half_p;
+    return node + slope * ((forward ? s.to_face_m : -s.to_face_p) - travel);
   }
 };
 
@@ -38,10 +40,10 @@ struct Bounded {
 /// that flux brings: m + (p - m) / Pe, which meets the central value at Pe = 2 (where the face is not midway, at Pe = h
 /// / distance of the upwind node).
 struct Hybrid {
-  double operator()(const Stencil4& s, double velocity, double, double, double, double gamma) const {
+  static double face(const Stencil4& s, double velocity, double, double, double, double gamma) {
     const double speed_h = std::abs(velocity) * s.h;
     const bool forward = velocity > 0;
-    const double central = (forward ? s.to_face_m : s.to_face_p) / s.h;
+    const double central = (forward ? s.to_face_m : s.to_face_p) * s.per_h;
     const double downstream = speed_h * central < gamma ? central : gamma / speed_h;
     return forward ? s.m + (s.p - s.m) * downstream : s.p + (s.m - s.p) * downstream;
   }

@@ -4,7 +4,7 @@
 
 #include "flow/lines.hpp"
 #include "flow/momentum.hpp"
-#include "flow/turbulence.hpp"
+#include "flow/transport.hpp"
 
 /// The paper's algorithm: implicit SIMPLE of Patankar and Spalding (1972) with under-relaxation.
 ///
@@ -47,14 +47,18 @@ public:
   double pressure_residual(const Mesh& mesh, double density, const base::Field& p, const Workspace& w);
 
 private:
+  template <class Scheme>
   double solve_component(const Mesh& mesh, const Boundary& boundary, const Params& params, double inverse_dt, State& s,
-                         Workspace& w, const MomentumEquation& c, const base::Field& old);
-  double solve_scalar(const Mesh& mesh, const Boundary& boundary, const Params& params, const Staggering& at,
-                      double inverse_dt, const ScalarEquation& q, const base::Field& old, Workspace& w);
-  /// Couplings: conductances plus what flows in; centre: their sum.
-  void couple(const Staggering& at, const FaceFlow& flow, const Conductance& g);
+                         Workspace& w, const Component& c);
+  template <class Scheme>
+  double solve_scalar(const Mesh& mesh, const Params& params, const Staggering& at, double inverse_dt, bool of_k,
+                      const Turbulence& turbulence, const State& s, base::Field& next, Workspace& w);
+  /// Couplings of row j: exchange plus what flows in; centre: their sum.
+  void couple(const Staggering& at, const Workspace& w, const CarrierRows& carrier, int j, const double* kx,
+              const double* ky, const double* ky_above);
 
   LineSystem system_;
+  base::Field carrier_u_, carrier_v_;  ///< velocity at the start of an outer iteration
   base::Field old_k_, old_e_;
   bool turbulence_kept_ = false;
   std::vector<double> scratch_;

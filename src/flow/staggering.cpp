@@ -55,10 +55,8 @@ OpenPart open_part(const Mesh& m, bool west, int i, int j) {
 
 /// Friction between a cut face and the next one along it acts over the distance of their open parts, not over that of
 /// the whole faces: without this the pipe would seem smaller by part of a cell.
-void draw_closer(const Mesh& m, Staggering& s) {
-  const bool west = s.shift_x > 0;
+void draw_closer(const Mesh& m, bool west, base::Field& open) {
   const base::Field& aperture = west ? m.aperture_x : m.aperture_y;
-  base::Field& area = west ? s.area_y : s.area_x;
   for (int j = 1; j < m.ny; ++j)
     for (int i = 1; i < m.nx; ++i) {
       const int a = west ? i : i - 1, b = west ? j - 1 : j;
@@ -66,8 +64,25 @@ void draw_closer(const Mesh& m, Staggering& s) {
       if (here <= 0 || there <= 0 || (here >= 1 && there >= 1)) continue;
       const double apart = open_part(m, west, i, j).middle - open_part(m, west, a, b).middle;
       const double whole = west ? m.dy_face(j) : m.dx_face(i);
-      area(i, j) *= whole / std::max(apart, 0.5 * whole);
+      open(i, j) *= whole / std::max(apart, 0.5 * whole);
     }
+}
+
+std::vector<double> inverse(const std::vector<double>& a) {
+  std::vector<double> b(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) b[k] = a[k] > 0 ? 1.0 / a[k] : 0.0;
+  return b;
+}
+
+/// Shares of cell faces k - shift and k in the flux through the face of volume k that both are halves of.
+void share_faces(const std::vector<double>& cell, const std::vector<double>& volume, int shift,
+                 std::vector<double>& before, std::vector<double>& here) {
+  before.assign(cell.size(), 0.5), here.assign(cell.size(), 0.5);
+  for (std::size_t k = shift; shift > 0 && k < cell.size(); ++k) {
+    if (volume[k] <= 0) continue;
+    before[k] = 0.5 * cell[k - 1] / volume[k];
+    here[k] = 0.5 * cell[k] / volume[k];
+  }
 }
 
 Staggering make(const Mesh& m, int shift_x, int shift_y) {
@@ -77,32 +92,41 @@ Staggering make(const Mesh& m, int shift_x, int shift_y) {
   Axis x = make_axis(m.dx_, m.dx_face_, shift_x), y = make_axis(m.dy_, m.dy_face_, shift_y);
   s.width = x.size, s.hx = x.h, s.to_west = x.before, s.from_west = x.after;
   s.height = y.size, s.hy = y.h, s.to_south = y.before, s.from_south = y.after;
-  s.volume = s.inertia = s.pressed = s.area_x = s.area_y = base::Field(m.nx, m.ny);
-  const auto open = [&](int i, int j) {
-    return shift_x ? m.aperture_x(i, j) : shift_y ? m.aperture_y(i, j) : m.volume(i, j);
-  };
+  s.per_width = inverse(s.width), s.per_hx = inverse(s.hx);
+  s.per_height = inverse(s.height), s.per_hy = inverse(s.hy);
+  share_faces(m.dx_, s.width, shift_x, s.share_x_before, s.share_x);
+  share_faces(m.dy_, s.height, shift_y, s.share_y_before, s.share_y);
+  base::Field volume(m.nx, m.ny, 2, 1.0), open = volume, open_x = volume, open_y = volume, inertia = volume;
   for (int j = 0; j <= m.ny; ++j)
     for (int i = 0; i <= m.nx; ++i) {
       const int a = i - shift_x, b = j - shift_y;
-      s.area_x(i, j) = 0.5 * (m.aperture_x(a, b) + m.aperture_x(i, j)) * s.height[j + 2];
-      s.area_y(i, j) = 0.5 * (m.aperture_y(a, b) + m.aperture_y(i, j)) * s.width[i + 2];
-      s.pressed(i, j) = open(i, j) * s.width[i + 2] * s.height[j + 2];
-      s.volume(i, j) = 0.5 * (m.volume(a, b) * m.dx(a) * m.dy(b) + m.volume(i, j) * m.dx(i) * m.dy(j));
+      open_x(i, j) = 0.5 * (m.aperture_x(a, b) + m.aperture_x(i, j));
+      open_y(i, j) = 0.5 * (m.aperture_y(a, b) + m.aperture_y(i, j));
+      open(i, j) = shift_x ? m.aperture_x(i, j) : shift_y ? m.aperture_y(i, j) : m.volume(i, j);
+      const double before = m.volume(a, b), here = m.volume(i, j);
+      // Equal openings give their own value to the last bit, so that rows without pipe are all alike.
+      volume(i, j) = before == here
+                         ? here
+                         : 0.5 * (before * m.dx(a) * m.dy(b) + here * m.dx(i) * m.dy(j)) / s.whole(i, j);
     }
   for (int j = 0; j < m.ny; ++j)
     for (int i = 0; i < m.nx; ++i) {
-      const double open_x = std::max(s.area_x(i, j), s.area_x(i + 1, j)) / s.height[j + 2];
-      const double open_y = std::max(s.area_y(i, j), s.area_y(i, j + 1)) / s.width[i + 2];
-      const double whole = s.width[i + 2] * s.height[j + 2];
-      s.inertia(i, j) = std::max({s.volume(i, j), s.pressed(i, j), 0.5 * std::max(open_x, open_y) * whole});
-      if (s.inertia(i, j) <= 0) s.inertia(i, j) = whole;  // solid: nothing moves, nothing divides by zero
+      const double widest = std::max(std::max(open_x(i, j), open_x(i + 1, j)), std::max(open_y(i, j), open_y(i, j + 1)));
+      inertia(i, j) = std::max({volume(i, j), open(i, j), 0.5 * widest});
+      if (inertia(i, j) <= 0) inertia(i, j) = 1;  // solid: nothing moves, nothing divides by zero
     }
   for (int j = 0; j <= m.ny; ++j)
     for (int i = 0; i <= m.nx; ++i) {
-      if (open(i, j) <= 0 || open(i - 1, j) <= 0) s.area_x(i, j) = 0;
-      if (open(i, j) <= 0 || open(i, j - 1) <= 0) s.area_y(i, j) = 0;
+      if (open(i, j) <= 0 || open(i - 1, j) <= 0) open_x(i, j) = 0;
+      if (open(i, j) <= 0 || open(i, j - 1) <= 0) open_y(i, j) = 0;
     }
-  if (m.has_pipe() && shift_x + shift_y > 0) draw_closer(m, s);
+  if (m.has_pipe() && shift_x) draw_closer(m, true, open_y);
+  if (m.has_pipe() && shift_y) draw_closer(m, false, open_x);
+  base::Field per_inertia = inertia;
+  for (double& value : per_inertia.storage()) value = 1.0 / value;
+  s.open_volume = base::SharedRows(volume), s.open = base::SharedRows(open);
+  s.open_x = base::SharedRows(open_x), s.open_y = base::SharedRows(open_y);
+  s.inertia_ = base::SharedRows(inertia), s.per_inertia = base::SharedRows(per_inertia);
   return s;
 }
 
@@ -111,6 +135,14 @@ Staggering make(const Mesh& m, int shift_x, int shift_y) {
 Staggering Staggering::centres(const Mesh& m) { return make(m, 0, 0); }
 Staggering Staggering::west_faces(const Mesh& m) { return make(m, 1, 0); }
 Staggering Staggering::south_faces(const Mesh& m) { return make(m, 0, 1); }
+
+std::vector<WallCell> find_wall_cells(const Mesh& m) {
+  std::vector<WallCell> cells;
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i)
+      if (m.wall_length(i, j) > 0) cells.push_back({i, j});
+  return cells;
+}
 
 std::vector<WallPart> share_wall(const Mesh& m, bool west) {
   std::vector<WallPart> parts;

@@ -6,20 +6,24 @@ namespace livebed::flow {
 
 /// What the grains do to the flow, per unit volume of a cell face's control volume: the force is f - beta u.
 struct Load {
+  int top = 0;                   ///< rows from it on hold no grains: there all is 0 and not read
   base::Field beta_u, beta_v;    ///< [kg m-3 s-1] on the faces of u and v
   base::Field force_u, force_v;  ///< [N m-3]
 };
 
-/// Everything that changes with time.  All fields have mesh.nx x mesh.ny cells and two ghosts; u(nx,j) and v(i,ny) are
+/// Everything that changes with time.  k, epsilon and nut live half a step ahead of the velocity: each is then centred
+/// in the step of the other.  All fields have mesh.nx x mesh.ny cells and two ghosts; u(nx,j) and v(i,ny) are
 /// the outlet and top faces.
 struct State {
   base::Field u, v;            ///< velocity [m/s]; of the open part of cut faces, 0 on closed ones
   base::Field p;               ///< dynamic pressure [Pa]
+  base::Field nut;             ///< eddy viscosity [m2/s]
   base::Field k;               ///< turbulent kinetic energy [m2/s2]
   base::Field epsilon;         ///< its dissipation [m2/s3]
-  base::Field nut;             ///< eddy viscosity [m2/s]
-  base::Field u_old, v_old;    ///< velocity one step ago (time-centred advection)
-  base::Field rate_u, rate_v;  ///< acceleration of the last step but for convection [m/s2] (time-centred face values)
+  base::Field u_old, v_old;    ///< one step ago, likewise below: face values are centred in time with their help
+  base::Field k_old, epsilon_old;
+  base::Field convection_u, convection_v;   ///< rates of change by convection in the last step [m/s2]
+  base::Field convection_k, convection_e;   ///< of k and the second quantity of the closure [m2/s3], [its unit/s]
   double step = 0;             ///< last time step [s]
   double time = 0;             ///< [s] since the spin-up began
   Load load;

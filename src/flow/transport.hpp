@@ -3,12 +3,35 @@
 
 namespace livebed::flow {
 
-/// q.next <- one step of a scalar.  Positive by construction: decay is implicit, convection and gain that would empty a
-/// cell are taken implicitly there (Patankar 1980), and the line systems are M-matrices.
-void advance_scalar(const Mesh& mesh, const Boundary& boundary, const Params& params, const Staggering& at, double dt,
-                    const ScalarEquation& q, Workspace& w);
+/// One equation of a closure, row after row upwards: the explicit balance of c = k or the second quantity.
+template <class Scheme>
+class ScalarRows {
+public:
+  ScalarRows(const Mesh& mesh, const Params& params, const Turbulence& turbulence, const Staggering& at, bool of_k,
+             const State& s, CarrierRows& carrier, double lead, Workspace& w, RowScratch::Rows& scratch);
+  void start(int j);
+  /// The next row: rate <- all of dc/dt now [c/s]; convection, gain <- those parts of it; decay <- [1/s]; kx <- exchange
+  /// across west faces [m/s].
+  void next(double* rate, double* convection, double* gain, double* decay, double* kx);
+  const double* exchange_y(int j) const { return exchange_y_[j % 2]; }
 
-/// k, epsilon, nut <- one step of Eq. 4-7 or of the closure asked for.
+private:
+  void fill_y(int j);
+  const Mesh& m_;
+  const Params& params_;
+  const Turbulence& turbulence_;
+  const Staggering& at_;
+  bool of_k_;
+  const State& s_;
+  ConvectionRows<Scheme> convect_;
+  int j_ = 0;
+  std::array<double*, 2> exchange_y_{};
+};
+
+/// k, epsilon, nut <- one step of Eq. 4-7 or of the closure asked for, carried and strained by the present velocity.
+/// Second order in time: what the law says is centred in the step by the last two levels, decay and diffusion are
+/// half implicit.  Positive: a cell that would lose more than half its value within the step loses it implicitly
+/// (Patankar 1980), and what the line systems take from a neighbour never exhausts it.
 void advance_turbulence(const Mesh& mesh, const Boundary& boundary, const Params& params, const Staggering& at,
                         double dt, Turbulence& turbulence, State& s, Workspace& w);
 

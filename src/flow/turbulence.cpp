@@ -8,6 +8,7 @@
 namespace livebed::flow {
 
 using base::Field;
+using base::SharedRows;
 using base::for_each_item;
 using base::square;
 using base::vector_loop;
@@ -42,91 +43,152 @@ Field distance_from_walls(const Mesh& m, const Boundary& b) {
 
 Turbulence::Turbulence(const Mesh& m, const Boundary& b, const Params& params) : law_(closure_law(params.closure)) {
   if (params.closure == Closure::laminar) return;
-  const bool with_omega = std::holds_alternative<KOmegaSst>(law_);
   const Field f(m.nx, m.ny);
-  strain_ = gain_ = decay_ = f;
-  next_k_ = next_e_ = f;
-  if (with_omega) omega_ = cross_ = blend_ = f;
+  strain_ = nut_ = f;
+  if (with_omega()) omega_ = omega_old_ = cross_ = blend_ = f;
+  open_x_ = SharedRows(m.aperture_x), open_y_ = SharedRows(m.aperture_y), volume_ = SharedRows(m.volume);
   distance_ = distance_from_walls(m, b);
   inlet_k_ = b.inlet_k;
   inlet_e_ = b.inlet_epsilon;
-  if (with_omega)
+  if (with_omega())
     for (std::size_t j = 0; j < inlet_e_.size(); ++j) inlet_e_[j] /= launder_spalding.c_mu * inlet_k_[j];
 
   // k-epsilon needs a wall function to touch a wall; k-omega reaches down to any.
-  const auto touches = [&](Wall wall) { return with_omega ? wall != Wall::slip : has_wall_function(wall); };
-  std::vector<FixedCell> solid;
-  for (int j = 0; j < m.ny; ++j)
+  const auto touches = [&](Wall wall) { return with_omega() ? wall != Wall::slip : has_wall_function(wall); };
+  const Staggering at = Staggering::centres(m);
+  const double least_e = second_floor();
+  for (int j = 0; j < m.ny; ++j) {
+    for (FixedCells* fixed : {&fixed_k_, &fixed_e_}) fixed->first.push_back(static_cast<int>(fixed->cells.size()));
     for (int i = 0; i < m.nx; ++i) {
-      if (m.volume(i, j) <= 0)
-        solid.push_back({i, j, 0.0});
-      else if (m.wall_length(i, j) > 0 && touches(m.pipe.wall))
-        walls_.push_back({i, j, WallCell::pipe, m.pipe.wall, m.wall_distance(i, j), m.wall_length(i, j)});
-      else if (j == 0 && touches(b.floor))
-        walls_.push_back({i, j, WallCell::floor, b.floor, 0.5 * m.dy(j), m.dx(i)});
-      else if (j == m.ny - 1 && touches(b.top))
-        walls_.push_back({i, j, WallCell::lid, b.top, 0.5 * m.dy(j), m.dx(i)});
+      const auto place = [&](WallPlace::Where where, Wall wall, double y, double length) {
+        walls_.push_back({i, j, where, wall, y, length, 1.0 / at.inertia(i, j)});
+        fixed_k_.of_wall.push_back(static_cast<int>(fixed_k_.cells.size()));
+        fixed_e_.of_wall.push_back(static_cast<int>(fixed_e_.cells.size()));
+        if (!with_omega()) fixed_k_.cells.push_back({i, j, k_floor});
+        fixed_e_.cells.push_back({i, j, least_e});
+      };
+      if (m.volume(i, j) <= 0) {
+        fixed_k_.cells.push_back({i, j, k_floor});
+        fixed_e_.cells.push_back({i, j, least_e});
+      } else if (m.wall_length(i, j) > 0 && touches(m.pipe.wall)) {
+        place(WallPlace::pipe, m.pipe.wall, m.wall_distance(i, j), m.wall_length(i, j));
+      } else if (j == 0 && touches(b.floor)) {
+        place(WallPlace::floor, b.floor, 0.5 * m.dy(j), m.dx(i));
+      } else if (j == m.ny - 1 && touches(b.top)) {
+        place(WallPlace::lid, b.top, 0.5 * m.dy(j), m.dx(i));
+      }
     }
-  for (const WallCell& cell : walls_) {
-    if (!with_omega) fixed_k_.push_back({cell.i, cell.j, k_floor});
-    fixed_e_.push_back({cell.i, cell.j, epsilon_floor});
   }
-  for (FixedCell cell : solid) {
-    cell.value = k_floor;
-    fixed_k_.push_back(cell);
-    cell.value = with_omega ? omega_floor : epsilon_floor;
-    fixed_e_.push_back(cell);
+  for (FixedCells* fixed : {&fixed_k_, &fixed_e_}) {
+    fixed->first.push_back(static_cast<int>(fixed->cells.size()));
+    Field factor(m.nx, m.ny, 2, 1.0);
+    for (const FixedCell& cell : fixed->cells) factor(cell.i, cell.j) = fixed_row;
+    (fixed == &fixed_k_ ? factor_k_ : factor_e_) = SharedRows(factor);
   }
 }
 
-double Turbulence::shear_velocity(const WallCell& a, const State& s, const Workspace& w) {
+double Turbulence::second_floor() const { return with_omega() ? omega_floor : epsilon_floor; }
+
+double Turbulence::shear_velocity(const WallPlace& a, const State& s, const Workspace& w) {
   const double u = 0.5 * (s.u(a.i, a.j) + s.u(a.i + 1, a.j)), v = 0.5 * (s.v(a.i, a.j) + s.v(a.i, a.j + 1));
   switch (a.where) {
-    case WallCell::pipe:
+    case WallPlace::pipe:
       return std::sqrt(w.wall_c(a.i, a.j) / a.length * std::hypot(u, v));
-    case WallCell::floor:
+    case WallPlace::floor:
       return std::sqrt(w.floor_c[a.i] * std::abs(u));
-    case WallCell::lid:
+    case WallPlace::lid:
       return std::sqrt(w.top_c[a.i] * std::abs(u));
   }
   return 0;
 }
 
-void Turbulence::prepare(const Mesh& m, const Boundary& b, const Params& params, State& s) {
-  for_each_item(0, m.ny, [&](int j) {
-    const double *u = s.u.row(j), *ub = s.u.row(j - 1), *ua = s.u.row(j + 1), *v = s.v.row(j), *va = s.v.row(j + 1);
-    const double *dx = m.dx_.data() + 2, *hx = m.dx_face_.data() + 2;
-    const double dy = m.dy(j), h_below = m.dy_face(j), h_above = m.dy_face(j + 1);
-    double* strain = strain_.row(j);
-    vector_loop(0, m.nx, [&](int i) {
-      const double dudx = (u[i + 1] - u[i]) / dx[i], dvdy = (va[i] - v[i]) / dy;
-      const double uc = u[i] + u[i + 1], vc = v[i] + va[i];
-      const double dudy = 0.25 * ((ua[i] + ua[i + 1] - uc) / h_above + (uc - ub[i] - ub[i + 1]) / h_below);
-      const double dvdx = 0.25 * ((v[i + 1] + va[i + 1] - vc) / hx[i + 1] + (vc - v[i - 1] - va[i - 1]) / hx[i]);
-      strain[i] = strain_squared(dudx, dvdy, dudy + dvdx);
+void Turbulence::set_walls(const Params& params, const State& s, const Workspace& w) {
+  const double nu = params.viscosity;
+  for (std::size_t n = 0; n < walls_.size(); ++n) {
+    WallPlace& a = walls_[n];
+    const double u_star = shear_velocity(a, s, w);
+    double& e = fixed_e_.cells[fixed_e_.of_wall[n]].value;
+    if (with_omega()) {
+      e = KOmegaSst::wall_omega(u_star, a.y, nu, a.wall != Wall::rough);
+      // The stress u*^2 does its work on the slope u*^2/(nu + nut) at every distance; k is 0 on a smooth wall.
+      const double nut = nut_(a.i, a.j);
+      a.gain = nut * square(u_star * u_star / (nu + nut));
+      a.decay = a.wall != Wall::rough ? nu * a.length / a.y * a.per_inertia : 0.0;
+    } else {
+      e = wall_epsilon(u_star, a.y, nu);
+      fixed_k_.cells[fixed_k_.of_wall[n]].value = wall_k(u_star);
+    }
+  }
+}
+
+namespace {
+
+/// A quantity that stays positive, centred in the step to come by what it did in the last one.
+double centred(double now, double before, double ahead) {
+  return std::min(std::max(now + ahead * (now - before), 0.5 * now), 2.0 * now);
+}
+
+}  // namespace
+
+void Turbulence::prepare(const Mesh& m, const Boundary& b, const Params& params, double ahead, State& s,
+                         const Workspace& w) {
+  ahead_ = ahead;
+  const double nu = params.viscosity, most = nut_over_nu_most * nu;
+  if (with_omega()) {
+    for_each_item(0, m.ny, [&](int j) {
+      const double *k = s.k.row(j), *e = s.epsilon.row(j), *ko = s.k_old.row(j), *eo = s.epsilon_old.row(j);
+      double *omega = omega_.row(j), *old = omega_old_.row(j);
+      vector_loop(0, m.nx, [&](int i) {
+        omega[i] = e[i] / (launder_spalding.c_mu * k[i]);
+        old[i] = eo[i] / (launder_spalding.c_mu * ko[i]);
+      });
     });
-  });
+    fill_scalar_ghosts(m, b.inlet ? &inlet_e_ : nullptr, omega_);
+  } else {
+    fill_scalar_ghosts(m, b.inlet ? &inlet_e_ : nullptr, s.epsilon);
+  }
+  fill_scalar_ghosts(m, b.inlet ? &inlet_k_ : nullptr, s.k);
+
+  const Field &second_now = second(s), &second_before = second_old(s);
+  std::visit(
+      [&](const auto& law) {
+        for_each_item(0, m.ny, [&](int j) {
+          const double *u = s.u.row(j), *ub = s.u.row(j - 1), *ua = s.u.row(j + 1), *v = s.v.row(j),
+                       *va = s.v.row(j + 1);
+          const double *per_dx = w.per_dx.data() + 2, *per_hx = w.per_dx_face.data() + 2;
+          const double per_dy = 1.0 / m.dy(j), per_below = 1.0 / m.dy_face(j), per_above = 1.0 / m.dy_face(j + 1);
+          const double *k = s.k.row(j), *ko = s.k_old.row(j), *e = second_now.row(j), *eo = second_before.row(j);
+          const double *volume = volume_.row(j), *y = distance_.row(j);
+          double *strain = strain_.row(j), *nut = nut_.row(j);
+          vector_loop(0, m.nx, [&](int i) {
+            const double dudx = (u[i + 1] - u[i]) * per_dx[i], dvdy = (va[i] - v[i]) * per_dy;
+            const double uc = u[i] + u[i + 1], vc = v[i] + va[i];
+            const double dudy = 0.25 * ((ua[i] + ua[i + 1] - uc) * per_above + (uc - ub[i] - ub[i + 1]) * per_below);
+            const double dvdx =
+                0.25 * ((v[i + 1] + va[i + 1] - vc) * per_hx[i + 1] + (vc - v[i - 1] - va[i - 1]) * per_hx[i]);
+            strain[i] = strain_squared(dudx, dvdy, dudy + dvdx);
+            const double kc = centred(k[i], ko[i], ahead), ec = centred(e[i], eo[i], ahead);
+            nut[i] = volume[i] > 0 ? std::min(law.eddy_viscosity(kc, ec, strain[i], y[i], nu), most) : 0.0;
+          });
+        });
+      },
+      law_);
+  fill_scalar_ghosts(m, nullptr, nut_);
+  set_walls(params, s, w);
   const KOmegaSst* sst = std::get_if<KOmegaSst>(&law_);
   if (!sst) return;
   for_each_item(0, m.ny, [&](int j) {
-    const double *k = s.k.row(j), *e = s.epsilon.row(j);
-    double* omega = omega_.row(j);
-    vector_loop(0, m.nx, [&](int i) { omega[i] = e[i] / (launder_spalding.c_mu * k[i]); });
-  });
-  fill_scalar_ghosts(m, b.inlet ? &inlet_k_ : nullptr, s.k);
-  fill_scalar_ghosts(m, b.inlet ? &inlet_e_ : nullptr, omega_);
-  const double nu = params.viscosity;
-  for_each_item(0, m.ny, [&](int j) {
     const double *k = s.k.row(j), *kb = s.k.row(j - 1), *ka = s.k.row(j + 1);
     const double *o = omega_.row(j), *ob = omega_.row(j - 1), *oa = omega_.row(j + 1);
-    const double *ax = m.aperture_x.row(j), *ay = m.aperture_y.row(j), *ay_above = m.aperture_y.row(j + 1);
-    const double *hx = m.dx_face_.data() + 2, *y = distance_.row(j), *strain = strain_.row(j), *nut = s.nut.row(j);
-    const double h_below = m.dy_face(j), h_above = m.dy_face(j + 1);
+    const double *ax = open_x_.row(j), *ay = open_y_.row(j), *ay_above = open_y_.row(j + 1);
+    const double *per_hx = w.per_dx_face.data() + 2, *y = distance_.row(j), *strain = strain_.row(j),
+                 *nut = nut_.row(j);
+    const double per_below = 1.0 / m.dy_face(j), per_above = 1.0 / m.dy_face(j + 1);
     double *cross = cross_.row(j), *blend = blend_.row(j);
     vector_loop(0, m.nx, [&](int i) {
       // Closed faces have no slope.
-      const double west = ax[i] / hx[i], east = ax[i + 1] / hx[i + 1];
-      const double south = ay[i] / h_below, north = ay_above[i] / h_above;
+      const double west = ax[i] * per_hx[i], east = ax[i + 1] * per_hx[i + 1];
+      const double south = ay[i] * per_below, north = ay_above[i] * per_above;
       const double dkdx = west * (k[i] - k[i - 1]) + east * (k[i + 1] - k[i]);
       const double dkdy = south * (k[i] - kb[i]) + north * (ka[i] - k[i]);
       const double dodx = west * (o[i] - o[i - 1]) + east * (o[i + 1] - o[i]);
@@ -138,125 +200,103 @@ void Turbulence::prepare(const Mesh& m, const Boundary& b, const Params& params,
   fill_scalar_ghosts(m, nullptr, blend_);
 }
 
-template <class Rate, class Diffusion>
-void Turbulence::evaluate(const Mesh& m, const Params& params, const Staggering& at, const State& s,
-                          const Field& second, Workspace& w, Rate rate, Diffusion diffusion) {
-  // Laws without omega read neither cross nor blend: any field may stand for them.
-  const Field &cross_field = omega_.nx() > 0 ? cross_ : strain_, &blend_field = omega_.nx() > 0 ? blend_ : strain_;
-  const double nu = params.viscosity;
-  Conductance& g = w.conductance;
-  for_each_item(0, m.ny + 1, [&](int j) {
-    const double *nut = s.nut.row(j), *nut_below = s.nut.row(j - 1), *ax = at.area_x.row(j), *ay = at.area_y.row(j);
-    const double *blend = blend_field.row(j), *blend_below = blend_field.row(j - 1), *hx = at.hx.data() + 2;
-    double *gx = g.x.row(j), *gy = g.y.row(j);
-    const double inverse_hy = j > 0 && j < m.ny ? 1.0 / at.hy[j + 2] : 0.0;
-    vector_loop(0, m.nx + 1, [&](int i) {
-      const double here = nut[i] * diffusion(blend[i]);
-      gx[i] = (nu + 0.5 * (nut[i - 1] * diffusion(blend[i - 1]) + here)) * ax[i] / hx[i];
-      gy[i] = (nu + 0.5 * (nut_below[i] * diffusion(blend_below[i]) + here)) * ay[i] * inverse_hy;
-    });
-    gx[0] = gx[m.nx] = 0;
-    if (j == m.ny) return;
-    const double *k = s.k.row(j), *e = second.row(j), *strain = strain_.row(j), *cross = cross_field.row(j);
-    double *gain = gain_.row(j), *decay = decay_.row(j);
-    vector_loop(0, m.nx, [&](int i) {
-      const Rates r = rate(Local{k[i], e[i], nut[i], strain[i], cross[i], blend[i]});
-      gain[i] = r.gain;
-      decay[i] = r.decay;
-    });
-  });
-}
-
-ScalarEquation Turbulence::k_equation(const Mesh& m, const Params& params, const Staggering& at, State& s,
-                                      Workspace& w) {
+void Turbulence::fill_rates(const Mesh& m, bool of_k, int j, const State& s, double* gain, double* decay) const {
+  const double *k = s.k.row(j), *ko = s.k_old.row(j), *e = second(s).row(j), *eo = second_old(s).row(j);
+  const double *nut = nut_.row(j), *strain = strain_.row(j), ahead = ahead_;
   std::visit(
       [&](const auto& law) {
         using Law = std::decay_t<decltype(law)>;
-        evaluate(
-            m, params, at, s, Law::transports_omega ? omega_ : s.epsilon, w, [&](const Local& a) { return law.k(a); },
-            [&](double blend) { return law.diffusion_k(blend); });
-        for (std::size_t n = 0; n < walls_.size(); ++n) {
-          const WallCell& a = walls_[n];
-          const double u_star = shear_velocity(a, s, w);
+        const auto fill = [&](auto rates) {
           if constexpr (Law::transports_omega) {
-            // The stress u*^2 does its work on the slope u*^2/(nu + nut) at every distance; k is 0 on a smooth wall.
-            const double nut = s.nut(a.i, a.j), nu = params.viscosity;
-            gain_(a.i, a.j) = nut * square(u_star * u_star / (nu + nut));
-            if (a.wall != Wall::rough) decay_(a.i, a.j) += nu * a.length / (a.y * at.inertia(a.i, a.j));
+            const double *cross = cross_.row(j), *blend = blend_.row(j);
+            vector_loop(0, m.nx, [&](int i) {
+              const Rates r = rates(Local{centred(k[i], ko[i], ahead), centred(e[i], eo[i], ahead), nut[i], strain[i],
+                                          cross[i], blend[i]});
+              gain[i] = r.gain, decay[i] = r.decay;
+            });
           } else {
-            fixed_k_[n].value = wall_k(u_star);
+            vector_loop(0, m.nx, [&](int i) {
+              const Rates r = rates(Local{centred(k[i], ko[i], ahead), centred(e[i], eo[i], ahead), nut[i], strain[i],
+                                          0.0, 0.0});
+              gain[i] = r.gain, decay[i] = r.decay;
+            });
           }
-        }
+        };
+        if (of_k)
+          fill([&](const Local& a) { return law.k(a); });
+        else
+          fill([&](const Local& a) { return law.e(a); });
       },
       law_);
-  return {s.k, next_k_, gain_, decay_, w.conductance, inlet_k_, fixed_k_, k_floor};
+  if (!of_k || !with_omega()) return;
+  const auto before = [](const WallPlace& a, int row) { return a.j < row; };
+  for (auto a = std::lower_bound(walls_.begin(), walls_.end(), j, before); a != walls_.end() && a->j == j; ++a)
+    gain[a->i] = a->gain, decay[a->i] += a->decay;
 }
 
-ScalarEquation Turbulence::second_equation(const Mesh& m, const Params& params, const Staggering& at, State& s,
-                                           Workspace& w) {
+template <class Fill>
+void Turbulence::with_diffusion(bool of_k, Fill&& fill) const {
   std::visit(
       [&](const auto& law) {
-        using Law = std::decay_t<decltype(law)>;
-        evaluate(
-            m, params, at, s, Law::transports_omega ? omega_ : s.epsilon, w, [&](const Local& a) { return law.e(a); },
-            [&](double blend) { return law.diffusion_e(blend); });
-        for (std::size_t n = 0; n < walls_.size(); ++n) {
-          const WallCell& a = walls_[n];
-          const double u_star = shear_velocity(a, s, w), nu = params.viscosity;
-          fixed_e_[n].value = Law::transports_omega ? KOmegaSst::wall_omega(u_star, a.y, nu, a.wall != Wall::rough)
-                                                    : wall_epsilon(u_star, a.y, nu);
-        }
+        if (of_k)
+          fill([&](double blend) { return law.diffusion_k(blend); });
+        else
+          fill([&](double blend) { return law.diffusion_e(blend); });
       },
       law_);
-  const bool with_omega = std::holds_alternative<KOmegaSst>(law_);
-  return {with_omega ? omega_ : s.epsilon,         next_e_, gain_, decay_, w.conductance, inlet_e_, fixed_e_,
-          with_omega ? omega_floor : epsilon_floor};
 }
 
-template <class Law>
-void Turbulence::update_eddy_viscosity(const Law& law, const Mesh& m, const Params& params, const Field& second,
-                                       State& s) {
-  const double nu = params.viscosity, most = nut_over_nu_most * nu;
-  for_each_item(0, m.ny, [&](int j) {
-    const double *k = s.k.row(j), *e = second.row(j), *volume = m.volume.row(j), *strain = strain_.row(j),
-                 *y = distance_.row(j);
-    double* nut = s.nut.row(j);
-    vector_loop(0, m.nx, [&](int i) {
-      nut[i] = volume[i] > 0 ? std::min(law.eddy_viscosity(k[i], e[i], strain[i], y[i], nu), most) : 0.0;
+void Turbulence::fill_exchange_x(const Mesh& m, const Params& params, const Staggering& at, bool of_k, int j,
+                                 double* k) const {
+  // Laws without omega do not look at the blending: any row may stand for it.
+  const double *nut = nut_.row(j), *blend = (with_omega() ? blend_ : nut_).row(j);
+  const double *open = at.open_x.row(j), *per_hx = at.per_hx.data() + 2, nu = params.viscosity;
+  with_diffusion(of_k, [&](auto diffusion) {
+    vector_loop(0, m.nx + 1, [&](int i) {
+      const double mean = 0.5 * (nut[i - 1] * diffusion(blend[i - 1]) + nut[i] * diffusion(blend[i]));
+      k[i] = (nu + mean) * open[i] * per_hx[i];
     });
   });
-  fill_scalar_ghosts(m, nullptr, s.nut);
+  k[0] = k[m.nx] = 0;
 }
 
-void Turbulence::complete(const Mesh& m, const Params& params, State& s) {
-  s.k.swap(next_k_);
+void Turbulence::fill_exchange_y(const Mesh& m, const Params& params, const Staggering& at, bool of_k, int j, int ia,
+                                 int ib, double* k) const {
+  const Field& blend_field = with_omega() ? blend_ : nut_;
+  const double *nut = nut_.row(j), *nut_below = nut_.row(j - 1), *blend = blend_field.row(j),
+               *blend_below = blend_field.row(j - 1);
+  const double *open = at.open_y.row(j), nu = params.viscosity, inside = j > 0 && j < m.ny ? at.per_hy[j + 2] : 0.0;
+  with_diffusion(of_k, [&](auto diffusion) {
+    vector_loop(ia, ib, [&](int i) {
+      const double mean = 0.5 * (nut_below[i] * diffusion(blend_below[i]) + nut[i] * diffusion(blend[i]));
+      k[i - ia] = inside * (nu + mean) * open[i];
+    });
+  });
+}
+
+void Turbulence::store(const Params& params, int j, int ia, int ib, const double* k, const double* e, double* to_k,
+                       double* to_epsilon, double* to_nut) const {
+  const double *volume = volume_.row(j), *strain = strain_.row(j), *y = distance_.row(j);
+  const double nu = params.viscosity, most = nut_over_nu_most * nu;
   std::visit(
       [&](const auto& law) {
-        if constexpr (std::decay_t<decltype(law)>::transports_omega) {
-          omega_.swap(next_e_);
-          update_eddy_viscosity(law, m, params, omega_, s);
-          for_each_item(0, m.ny, [&](int j) {
-            const double *k = s.k.row(j), *omega = omega_.row(j);
-            double* e = s.epsilon.row(j);
-            vector_loop(0, m.nx,
-                        [&](int i) { e[i] = std::max(launder_spalding.c_mu * k[i] * omega[i], epsilon_floor); });
-          });
-        } else {
-          s.epsilon.swap(next_e_);
-          update_eddy_viscosity(law, m, params, s.epsilon, s);
-        }
+        vector_loop(ia, ib, [&](int i) {
+          const double ki = k[i - ia], ei = e[i - ia];
+          const double nut = std::min(law.eddy_viscosity(ki, ei, strain[i], y[i], nu), most);
+          to_k[i] = ki;
+          to_epsilon[i] = std::decay_t<decltype(law)>::transports_omega
+                              ? std::max(launder_spalding.c_mu * ki * ei, epsilon_floor)
+                              : ei;
+          to_nut[i] = volume[i] > 0 ? nut : 0.0;
+        });
       },
       law_);
 }
 
-void Turbulence::start(const Mesh& m, const Boundary& b, const Params& params, State& s) {
-  prepare(m, b, params, s);
-  std::visit(
-      [&](const auto& law) {
-        constexpr bool with_omega = std::decay_t<decltype(law)>::transports_omega;
-        update_eddy_viscosity(law, m, params, with_omega ? omega_ : s.epsilon, s);
-      },
-      law_);
+void Turbulence::start(const Mesh& m, const Boundary& b, const Params& params, State& s, const Workspace& w) {
+  s.k_old = s.k, s.epsilon_old = s.epsilon;
+  prepare(m, b, params, 0.0, s, w);
+  s.nut = nut_;
 }
 
 }  // namespace livebed::flow

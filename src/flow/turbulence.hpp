@@ -6,65 +6,85 @@
 
 namespace livebed::flow {
 
-/// A cell whose value is given, not solved.
-struct FixedCell {
-  int i, j;
-  double value;
-};
-
-/// One transport equation, ready for an algorithm to advance:
-///   dc/dt + div(u c) = div(diffusivity grad c) + gain - decay c.
-struct ScalarEquation {
-  base::Field& value;                   ///< c at the old time
-  base::Field& next;                    ///< receives c at the new time; never the same field
-  const base::Field &gain, &decay;      ///< [c/s], [1/s]; decay >= 0
-  const Conductance& conductance;       ///< of the faces
-  const std::vector<double>& inlet;     ///< c at the inlet, one value a row
-  const std::vector<FixedCell>& fixed;  ///< solid cells, and cells at walls with wall function
-  double floor;                         ///< least value
-};
-
-/// The closure of a case: turns its law into transport equations and eddy viscosity.  The state always holds k and
-/// epsilon; omega lives within a step only (omega = epsilon/(Cmu k)).  A step is
-///   prepare;  advance k_equation;  advance second_equation;  complete.
+/// The closure of a case: what its law says of every cell, row by row, for an algorithm to advance
+///   dc/dt + div(u c) = div(diffusivity grad c) + gain - decay c,   decay >= 0,
+/// with c = k or the second quantity e.  The state always holds k and epsilon; omega lives within a step only (omega =
+/// epsilon/(Cmu k)).  A step is
+///   prepare;  advance both;  store.
 class Turbulence {
 public:
   Turbulence(const Mesh& mesh, const Boundary& boundary, const Params& params);
 
-  /// Strain of the present velocity, omega and the blending of the law.
-  void prepare(const Mesh& mesh, const Boundary& boundary, const Params& params, State& s);
-  ScalarEquation k_equation(const Mesh& mesh, const Params& params, const Staggering& at, State& s, Workspace& w);
-  ScalarEquation second_equation(const Mesh& mesh, const Params& params, const Staggering& at, State& s, Workspace& w);
-  /// Takes over what the equations received: k, epsilon and nut of the state.
-  void complete(const Mesh& mesh, const Params& params, State& s);
+  /// Strain of the present velocity, eddy viscosity, omega and the blending of the law, all `ahead` of the present k and
+  /// epsilon by that share of the last step; values of the wall cells.  Fills the ghosts of k and e.
+  void prepare(const Mesh& mesh, const Boundary& boundary, const Params& params, double ahead, State& s,
+               const Workspace& w);
 
   /// nut <- k, epsilon and the velocity, of a state that no step has made.
-  void start(const Mesh& mesh, const Boundary& boundary, const Params& params, State& s);
+  void start(const Mesh& mesh, const Boundary& boundary, const Params& params, State& s, const Workspace& w);
+
+  bool with_omega() const { return std::holds_alternative<KOmegaSst>(law_); }
+  const base::Field& second(const State& s) const { return with_omega() ? omega_ : s.epsilon; }
+  const base::Field& second_old(const State& s) const { return with_omega() ? omega_old_ : s.epsilon_old; }
+  double second_floor() const;
+  /// Eddy viscosity centred in the step to come.
+  const base::Field& nut() const { return nut_; }
+  /// fixed_row in cells whose value is given, 1 elsewhere.
+  const base::SharedRows& factor(bool of_k) const { return of_k ? factor_k_ : factor_e_; }
+
+  /// gain, decay <- those of row j.
+  void fill_rates(const Mesh& mesh, bool of_k, int j, const State& s, double* gain, double* decay) const;
+  /// k <- exchange across the west faces of row j, diffusivity x opening / distance [m/s].
+  void fill_exchange_x(const Mesh& mesh, const Params& params, const Staggering& at, bool of_k, int j, double* k) const;
+  /// The same across south faces, for cells ia <= i < ib; k[i - ia].
+  void fill_exchange_y(const Mesh& mesh, const Params& params, const Staggering& at, bool of_k, int j, int ia, int ib,
+                       double* k) const;
+  /// Calls set(i, value) for every cell of row j whose value is given.
+  template <class Set>
+  void fixed_cells(bool of_k, int j, Set&& set) const {
+    const FixedCells& fixed = of_k ? fixed_k_ : fixed_e_;
+    for (int n = fixed.first[j]; n < fixed.first[j + 1]; ++n) set(fixed.cells[n].i, fixed.cells[n].value);
+  }
+  /// Takes k and e of cells ia <= i < ib of row j: k, epsilon and nut of that piece of the new state.
+  void store(const Params& params, int j, int ia, int ib, const double* k, const double* e,
+             double* to_k, double* to_epsilon, double* to_nut) const;
 
 private:
   /// A cell at floor, lid or pipe.
-  struct WallCell {
+  struct WallPlace {
     int i, j;
     enum Where { floor, lid, pipe } where;
     Wall wall;
-    double y, length;  ///< distance of its centre from the wall, length of the wall in it [m]
+    double y, length;      ///< distance of its centre from the wall, length of the wall in it [m]
+    double per_inertia;    ///< 1 / inertia of the cell [1/m2]
+    double gain = 0, decay = 0;  ///< of k, where k-omega solves it at walls: all its gain, and decay besides the law's
   };
-  static double shear_velocity(const WallCell& cell, const State& s, const Workspace& w);
-  template <class Rate, class Diffusion>
-  void evaluate(const Mesh& mesh, const Params& params, const Staggering& at, const State& s, const base::Field& second,
-                Workspace& w, Rate rate, Diffusion diffusion);
-  template <class Law>
-  void update_eddy_viscosity(const Law& law, const Mesh& mesh, const Params& params, const base::Field& second,
-                             State& s);
+  struct FixedCell {
+    int i, j;
+    double value;
+  };
+  /// Cells whose value is given, not solved, row by row.
+  struct FixedCells {
+    std::vector<FixedCell> cells;
+    std::vector<int> first;   ///< of each row
+    std::vector<int> of_wall; ///< index of the cell of each place at a wall
+  };
+  static double shear_velocity(const WallPlace& place, const State& s, const Workspace& w);
+  template <class Fill>
+  void with_diffusion(bool of_k, Fill&& fill) const;
+  void set_walls(const Params& params, const State& s, const Workspace& w);
 
   ClosureLaw law_;
-  std::vector<WallCell> walls_;
-  std::vector<FixedCell> fixed_k_, fixed_e_;  ///< the cells of walls_ first where the law sets them, then solid ones
+  std::vector<WallPlace> walls_;
+  FixedCells fixed_k_, fixed_e_;
+  base::SharedRows factor_k_, factor_e_;
   std::vector<double> inlet_k_, inlet_e_;
+  base::SharedRows open_x_, open_y_, volume_;
   base::Field distance_;               ///< of cells from the nearest wall [m]
   base::Field strain_;                 ///< S^2 [1/s2]
-  base::Field omega_, cross_, blend_;  ///< of omega closures
-  base::Field gain_, decay_, next_k_, next_e_;
+  base::Field nut_;                    ///< centred in the step to come [m2/s]
+  base::Field omega_, omega_old_, cross_, blend_;  ///< of omega closures
+  double ahead_ = 0;
 };
 
 }  // namespace livebed::flow

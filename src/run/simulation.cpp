@@ -169,11 +169,11 @@ void Simulation::check_finite() const {
 
 double Simulation::flow_momentum() const {
   const flow::State& s = flow_.state;
-  const base::Field& volume = flow_.at_u().inertia;
+  const flow::Staggering& at = flow_.at_u();
   double sum = 0;
-  for (int j = 0; j < s.u.ny(); ++j) {
-    const double *u = s.u.row(j), *V = volume.row(j);
-    sum += base::vector_sum(1, s.u.nx(), [&](int i) { return u[i] * V[i]; });
+  for (int j = at.j0; j < at.j1; ++j) {
+    const double *u = s.u.row(j), *inertia = at.inertia_.row(j), *width = at.width.data() + 2;
+    sum += at.height[j + 2] * base::vector_sum(at.i0, at.i1, [&](int i) { return u[i] * inertia[i] * width[i]; });
   }
   return sum * case_.flow.density * case_.grains.diameter;
 }

@@ -60,6 +60,7 @@ double bubble_length(const flow::Solver& flow) {
 /// Sets or clears a push across the stream behind the cylinder.
 void push(flow::Solver& flow, double force) {
   const flow::Mesh& m = flow.mesh();
+  flow.state.load.top = m.ny;
   for (int j = 0; j < m.ny; ++j)
     for (int i = 0; i < m.nx; ++i)
       if (std::hypot(m.centre_x(i) - m.pipe.x - 1, m.y[j] - m.pipe.y) < 0.5) flow.state.load.force_v(i, j) = force;

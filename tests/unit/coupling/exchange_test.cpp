@@ -42,7 +42,7 @@ struct Pair {
     g.x = {0.02, 0.031}, g.y = {0.01, 0.012}, g.u = {0.3, 0.0}, g.v = {-0.1, 0.0};
     const base::Field zero(mesh.nx, mesh.ny);
     s.u = s.v = zero;
-    s.load = {zero, zero, zero, zero};
+    s.load = {0, zero, zero, zero, zero};
   }
   static flow::Mesh make_mesh() {
     flow::MeshParams grid;

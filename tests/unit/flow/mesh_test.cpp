@@ -145,7 +145,7 @@ TEST(staggering, covers_the_open_area_and_lets_water_balance) {
         EXPECT_GE(u.area_y(i, j), 0.9 * mean);
         EXPECT_LE(u.area_y(i, j), 2.0001 * mean);
       }
-      EXPECT_NEAR(u.pressed(i, j), m.aperture_x(i, j) * m.dx_face(i) * m.dy(j), 1e-15);
+      EXPECT_NEAR(u.open(i, j) * u.whole(i, j), m.aperture_x(i, j) * m.dx_face(i) * m.dy(j), 1e-15);
       EXPECT_GE(u.inertia(i, j), u.volume(i, j));
       EXPECT_GT(c.inertia(i, j), 0);
     }

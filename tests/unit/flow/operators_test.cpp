@@ -33,13 +33,24 @@ base::Field sample(const Mesh& m, const Staggering& at, F&& f) {
   return out;
 }
 
-FaceFlow uniform_flow(const Mesh& m, double u, double v) {
-  const base::Field f(m.nx, m.ny);
-  FaceFlow flow{f, f, f, f};
-  flow.u.fill(u), flow.v.fill(v);
-  for (int j = -2; j < m.ny + 2; ++j)
-    for (int i = -2; i < m.nx + 2; ++i) flow.qx(i, j) = u * m.dy(j), flow.qy(i, j) = v * m.dx(i);
-  return flow;
+/// Convection of phi in a uniform flow on all its unknowns [1/s]; apertures as given.
+base::Field convect(const Mesh& m, const Staggering& at, Convection scheme, double u, double v, const base::Field& phi,
+                    double nu, double dt, const base::Field& face_x, const base::Field& face_y) {
+  base::Field out(m.nx, m.ny), zero(m.nx, m.ny), flow_u(m.nx, m.ny, 2, u), flow_v(m.nx, m.ny, 2, v);
+  const base::SharedRows open_x(face_x), open_y(face_y);
+  RowScratch scratch(m);
+  with_scheme(scheme, [&](auto kind) {
+    scratch.over_blocks(at.j0, at.j1, [&](int ja, int jb) {
+      RowScratch::Rows rows = scratch.rows();
+      CarrierRows carrier(m, {flow_u, flow_v, flow_u, flow_v, 0.0}, rows);
+      ConvectionRows<decltype(kind)> convection(open_x, open_y, carrier, {at, phi, phi, zero, 0.0, dt, false, zero, nu},
+                                                rows);
+      carrier.start(ja - 2);
+      convection.start(ja);
+      for (int j = ja; j < jb; ++j) convection.next(out.row(j));
+    });
+  });
+  return out;
 }
 
 class Convect : public ::testing::TestWithParam<std::tuple<Convection, int, double, double>> {};
@@ -51,17 +62,12 @@ TEST_P(Convect, a_line_is_carried_exactly) {
                         : place == 1 ? Staggering::west_faces(m)
                                      : Staggering::south_faces(m);
   const base::Field phi = sample(m, at, [](double x, double y) { return 3 + 2 * x - 5 * y; });
-  const base::Field rate(m.nx, m.ny), gamma(m.nx, m.ny, 2, 1.0);  // gamma so large that hybrid is central
-  base::Field out(m.nx, m.ny);
-  RowScratch scratch(m);
-  convect(m, at, scheme, uniform_flow(m, u, v), phi, rate, gamma, 1e-3, scratch, out);
+  // Diffusivity so large that hybrid is central.
+  const base::Field out = convect(m, at, scheme, u, v, phi, 1.0, 1e-3, m.aperture_x, m.aperture_y);
   const double exact = -(2 * u - 5 * v);
+  // Faces between unequal cells are not in the middle of the nodes: central weights and slopes know that.
   for (int j = at.j0 + 2; j < at.j1 - 2; ++j)
-    for (int i = at.i0 + 2; i < at.i1 - 2; ++i) {
-      // Faces between unequal cells are not in the middle of the nodes: central weights and slopes know that.
-      const double volume = at.width[i + 2] * at.height[j + 2];
-      ASSERT_NEAR(out(i, j) / volume, exact, 1e-9) << i << "," << j;
-    }
+    for (int i = at.i0 + 2; i < at.i1 - 2; ++i) ASSERT_NEAR(out(i, j), exact, 1e-9) << i << "," << j;
 }
 
 INSTANTIATE_TEST_SUITE_P(places, Convect,
@@ -78,70 +84,91 @@ TEST(convect, moves_but_never_makes) {
   base::Field phi(m.nx, m.ny);
   for (int j = 0; j < m.ny; ++j)
     for (int i = 0; i < m.nx; ++i) phi(i, j) = value(random);
-  FaceFlow flow = uniform_flow(m, 1, -0.5);
-  for (int j = -2; j < m.ny + 2; ++j) flow.qx(0, j) = flow.qx(m.nx, j) = 0;  // a closed box
-  for (int i = -2; i < m.nx + 2; ++i) flow.qy(i, 0) = flow.qy(i, m.ny) = 0;
-  const base::Field rate(m.nx, m.ny), gamma(m.nx, m.ny);
-  base::Field out(m.nx, m.ny);
-  RowScratch scratch(m);
+  base::Field face_x = m.aperture_x, face_y = m.aperture_y;  // of a closed box
+  for (int j = -2; j < m.ny + 2; ++j) face_x(0, j) = face_x(m.nx, j) = 0;
+  for (int i = -2; i < m.nx + 2; ++i) face_y(i, 0) = face_y(i, m.ny) = 0;
   for (Convection scheme : {Convection::bounded, Convection::hybrid}) {
-    convect(m, at, scheme, flow, phi, rate, gamma, 1e-3, scratch, out);
+    const base::Field out = convect(m, at, scheme, 1, -0.5, phi, 0, 1e-3, face_x, face_y);
     double sum = 0, size = 0;
     for (int j = 0; j < m.ny; ++j)
-      for (int i = 0; i < m.nx; ++i) sum += out(i, j), size += std::abs(out(i, j));
+      for (int i = 0; i < m.nx; ++i) {
+        const double through = out(i, j) * at.inertia(i, j);
+        sum += through, size += std::abs(through);
+      }
     EXPECT_GT(size, 0.1);
     EXPECT_LT(std::abs(sum), 1e-13 * size);
   }
 }
 
-TEST(solve_lines, invert_their_own_matrices) {
+TEST(solve_rows, inverts_its_own_matrices) {
   const Mesh m = graded_mesh();
   const Staggering at = Staggering::west_faces(m);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> value(0, 1);
-  base::Field base_factor(m.nx, m.ny, 2, 1.0), conductance(m.nx, m.ny), given(m.nx, m.ny), scratch(m.nx, m.ny);
+  base::Field factor(m.nx, m.ny, 2, 1.0), k(m.nx, m.ny), given(m.nx, m.ny), slope(m.nx, m.ny);
   for (int j = 0; j <= m.ny; ++j)
     for (int i = 0; i <= m.nx; ++i) {
-      conductance(i, j) = value(random);
-      if (i < m.nx && j < m.ny) base_factor(i, j) = 1 + value(random), given(i, j) = value(random) - 0.5;
+      k(i, j) = 0.1 * value(random);
+      if (i < m.nx && j < m.ny) factor(i, j) = 1 + value(random), given(i, j) = value(random) - 0.5;
     }
-  const double dt = 0.01;
   for (bool along_x : {true, false}) {
     base::Field phi = given;
-    if (along_x)
-      solve_lines_x(at, base_factor, conductance, dt, phi, scratch);
-    else
-      solve_lines_y(at, base_factor, conductance, dt, phi, scratch);
+    if (along_x) {
+      std::vector<RowSystem> rows;  // so many that they do not fill the last group
+      for (int j = at.j0; j < at.j1; ++j)
+        rows.push_back({factor.row(j), at.per_inertia.row(j), k.row(j), phi.row(j), slope.row(j)});
+      solve_rows(at, rows.data(), static_cast<int>(rows.size()));
+    } else {
+      ColumnScratch scratch(m);
+      const base::SharedRows factor_rows(factor);
+      over_columns(at, scratch, [&](int ia, int ib) {
+        double* d = scratch.piece(0);
+        solve_columns(at, factor_rows, given, ia, ib, [&](int j) { return k.row(j); }, d, scratch.piece(1));
+        for (int j = at.j0; j < at.j1; ++j)
+          for (int i = ia; i < ib; ++i) phi(i, j) = d[j * ColumnScratch::columns + i - ia];
+      });
+    }
     for (int j = at.j0; j < at.j1; ++j)
       for (int i = at.i0; i < at.i1; ++i) {
-        const double scale = dt / at.inertia(i, j);
-        const double before = scale * conductance(i, j),
-                     after = scale * (along_x ? conductance(i + 1, j) : conductance(i, j + 1));
+        const double scale = (along_x ? at.per_width[i + 2] : at.per_height[j + 2]) / at.inertia_(i, j);
+        const double before = scale * k(i, j), after = scale * (along_x ? k(i + 1, j) : k(i, j + 1));
         const bool first = along_x ? i == at.i0 : j == at.j0, last = along_x ? i == at.i1 - 1 : j == at.j1 - 1;
         const double left = first ? 0 : along_x ? phi(i - 1, j) : phi(i, j - 1);
         const double right = last ? 0 : along_x ? phi(i + 1, j) : phi(i, j + 1);
-        ASSERT_NEAR((base_factor(i, j) + before + after) * phi(i, j) - before * left - after * right, given(i, j),
-                    1e-12)
+        const double expected = along_x ? given(i, j) : factor(i, j) * given(i, j);
+        ASSERT_NEAR((factor(i, j) + before + after) * phi(i, j) - before * left - after * right, expected, 1e-12)
             << i << "," << j;
       }
   }
 }
 
-TEST(center_face_flow, goes_half_a_step_ahead_of_the_last_two_levels) {
+TEST(keep_implicit_part, is_half_of_small_and_nearly_all_of_large_exchanges) {
+  std::vector<double> k{1e-4, 2e-4, 1e-4, 50.0};
+  keep_implicit_part(0, 2, 0.1, [](int) { return 100.0; }, k.data());
+  EXPECT_DOUBLE_EQ(k[0], 0.5 * 0.1 * 1e-4);
+  keep_implicit_part(2, 4, 0.1, [](int) { return 100.0; }, k.data());
+  EXPECT_DOUBLE_EQ(k[2], 0.5 * 0.1 * 1e-4);
+  EXPECT_DOUBLE_EQ(k[3], 0.1 * 50.0 * (1 - 0.5 / 500.0));
+}
+
+TEST(carrier, goes_half_a_step_ahead_of_the_last_two_levels) {
   const Mesh m = graded_mesh();
   State s;
   const base::Field f(m.nx, m.ny);
   s.u = s.v = s.u_old = s.v_old = f;
   s.u.fill(3), s.u_old.fill(1), s.v.fill(-1), s.v_old.fill(-2);
   s.step = 0.1;
-  FaceFlow face{f, f, f, f};
-  center_face_flow(m, s, 0.2, face);  // twice the step before: ahead by the whole difference
-  EXPECT_NEAR(face.u(3, 4), 5, 1e-14);
-  EXPECT_NEAR(face.v(3, 4), 0, 1e-14);
-  EXPECT_NEAR(face.qx(3, 4), 5 * m.dy(4), 1e-14);
-  s.step = 0;  // the first step knows one level
-  center_face_flow(m, s, 0.2, face);
-  EXPECT_NEAR(face.u(3, 4), 3, 1e-14);
+  RowScratch scratch(m);
+  scratch.fit();
+  for (const auto& [step, u, v] : {std::tuple{0.1, 5.0, 0.0}, {0.0, 3.0, -1.0}}) {  // the first step knows one level
+    s.step = step;
+    RowScratch::Rows rows = scratch.rows();
+    CarrierRows carrier(m, centred_carrier(s, 0.2), rows);  // twice the step before: ahead by the whole difference
+    carrier.start(2);
+    carrier.reach(4);
+    EXPECT_NEAR(carrier.u(4)[3], u, 1e-14);
+    EXPECT_NEAR(carrier.v(3)[-1], v, 1e-14);
+  }
 }
 
 }  // namespace

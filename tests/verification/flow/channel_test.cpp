@@ -78,6 +78,7 @@ TEST(porous_block, takes_the_darcy_pressure_drop_exactly) {
   Solver flow(p, m, make_boundary(m, p));
   flow.start();
   const double beta = 5e4;
+  flow.state.load.top = flow.mesh().ny;
   for (int j = 0; j < m.ny; ++j)
     for (int i = 15; i < 25; ++i) flow.state.load.beta_u(i, j) = flow.state.load.beta_v(i, j) = beta;
   for (int step = 0; step < 200; ++step) flow.advance(0.05);
