@@ -61,6 +61,14 @@ double ordered_sum(int begin, int end, std::vector<double>& scratch, Item&& item
   return sum;
 }
 
+/// Asks for values [begin, end) of a row that will soon be read or, with for_writing, written.  For walks down short
+/// pieces of rows, which the processor does not foresee.
+template <bool for_writing = false, class T>
+inline void fetch_ahead(const T* row, int begin, int end) {
+  constexpr int line = 64 / sizeof(T);
+  for (int k = begin; k < end; k += line) __builtin_prefetch(row + k, for_writing ? 1 : 0, 2);
+}
+
 /// Inner loop that the compiler may turn into vector instructions: calls of body(k) must not depend on one another.
 template <class Body>
 inline void vector_loop(int begin, int end, Body&& body) {

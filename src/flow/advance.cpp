@@ -27,7 +27,7 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
       pressure_(mesh.nx, mesh.ny) {
   const Field zero(mesh.nx, mesh.ny);
   State& s = state;
-  s.u = s.v = s.p = s.nut = s.u_old = s.v_old = zero;
+  s.u = s.v = s.p = s.p_change = s.nut = s.u_old = s.v_old = zero;
   s.convection_u = s.convection_v = s.convection_k = s.convection_e = zero;
   s.k = s.k_old = Field(mesh.nx, mesh.ny, 2, k_floor);
   s.epsilon = s.epsilon_old = Field(mesh.nx, mesh.ny, 2, epsilon_floor);
@@ -46,13 +46,14 @@ void Solver::start() {
   fill_velocity_ghosts(mesh_, boundary_, s.u, s.v);
   double residual = 0;
   set_pressure_coefficients();
+  s.p_change.fill(0.0);
   project(1.0, params_.pressure_tolerance, 1.0, residual);
   if (params_.closure != Closure::laminar) {
     evaluate_walls(mesh_, boundary_, params_, s, work_);
     turbulence_.start(mesh_, boundary_, params_, s, work_);
   }
-  s.p.fill(0.0);              // of a start by impulse: it means nothing for the steps to come
-  coefficients_set_ = false;  // the steps use their own, whether they follow this start or a checkpoint
+  s.p.fill(0.0), s.p_change.fill(0.0);  // of a start by impulse: they mean nothing for the steps to come
+  coefficients_set_ = false;            // the steps use their own, whether they follow this start or a checkpoint
   s.u_old = s.u;
   s.v_old = s.v;
   s.step = s.time = 0;
@@ -97,31 +98,42 @@ void Solver::set_pressure_coefficients() {
 
 double Solver::sum_outflow(double scale, Field* to) {
   const Mesh& m = mesh_;
-  return std::sqrt(base::ordered_sum(0, m.ny, partial_, [&](int j) {
-    const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1), *ax = work_.face_x.row(j);
-    const double *ay = work_.face_y.row(j), *aya = work_.face_y.row(j + 1), *dx = m.dx_.data() + 2;
-    const double dy = m.dy(j);
-    const auto out = [&](int i) {
-      return (ax[i + 1] * u[i + 1] - ax[i] * u[i]) * dy + (aya[i] * va[i] - ay[i] * v[i]) * dx[i];
-    };
-    if (!to) return base::vector_sum(0, m.nx, [&](int i) { return out(i) * out(i); });
-    double* b = to->row(j);
-    vector_loop(0, m.nx, [&](int i) { b[i] = scale * out(i); });
-    return base::vector_sum(0, m.nx, [&](int i) { return b[i] * b[i]; });
-  })) / (to ? std::abs(scale) : 1.0);
+  return std::sqrt(base::ordered_sum(
+             0, m.ny, partial_,
+             [&](int j) {
+               const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1),
+                            *ax = work_.face_x.row(j);
+               const double *ay = work_.face_y.row(j), *aya = work_.face_y.row(j + 1), *dx = m.dx_.data() + 2;
+               const double dy = m.dy(j);
+               const auto out = [&](int i) {
+                 return (ax[i + 1] * u[i + 1] - ax[i] * u[i]) * dy + (aya[i] * va[i] - ay[i] * v[i]) * dx[i];
+               };
+               if (!to) return base::vector_sum(0, m.nx, [&](int i) { return out(i) * out(i); });
+               double* b = to->row(j);
+               vector_loop(0, m.nx, [&](int i) { b[i] = scale * out(i); });
+               return base::vector_sum(0, m.nx, [&](int i) { return b[i] * b[i]; });
+             })) /
+         (to ? std::abs(scale) : 1.0);
+}
+
+void Solver::guess_pressure_change(double dt) {
+  const double ratio = state.step > 0 ? dt / state.step : 0.0;
+  if (ratio == 1.0) return;
+  for_each_item(0, mesh_.ny, [&](int j) {
+    double* change = state.p_change.row(j);
+    vector_loop(0, mesh_.nx, [&](int i) { change[i] *= ratio; });
+  });
 }
 
 SolveReport Solver::project(double dt, double tolerance, double relax, double& mass_residual) {
   const Mesh& m = mesh_;
   const double before = sum_outflow(-params_.density / dt, &work_.outflow);
-  work_.phi.fill(0.0);
-  const SolveReport report = pressure_.solve(work_.phi, work_.outflow, tolerance, params_.pressure_iterations);
+  const SolveReport report = pressure_.solve(state.p_change, work_.outflow, tolerance, params_.pressure_iterations);
   const double kick = dt / params_.density;
   for_each_item(0, m.ny, [&](int j) {
-    const double *phi = work_.phi.row(j), *below = work_.phi.row(j - 1), *ax = work_.face_x.row(j),
+    const double *phi = state.p_change.row(j), *below = state.p_change.row(j - 1), *ax = work_.face_x.row(j),
                  *ay = work_.face_y.row(j);
-    const double *ru = work_.response_u.row(j), *rv = work_.response_v.row(j),
-                 *per_hx = work_.per_dx_face.data() + 2;
+    const double *ru = work_.response_u.row(j), *rv = work_.response_v.row(j), *per_hx = work_.per_dx_face.data() + 2;
     const double along_y = j > 0 ? kick / m.dy_face(j) : 0.0;
     double *u = state.u.row(j), *v = state.v.row(j), *p = state.p.row(j);
     vector_loop(0, m.nx, [&](int i) {
@@ -151,6 +163,7 @@ StepReport Solver::advance_projection(double dt) {
   evaluate_walls(mesh_, boundary_, params_, state, work_);
   predict_velocity(mesh_, boundary_, params_, at_u_, at_v_, dt, state, work_);
   set_pressure_coefficients();
+  guess_pressure_change(dt);
   report.pressure = project(dt, params_.pressure_tolerance, 1.0, report.mass_residual);
   if (params_.closure != Closure::laminar)
     advance_turbulence(mesh_, boundary_, params_, at_c_, dt, turbulence_, state, work_);

@@ -73,10 +73,14 @@ private:
   StepReport advance_projection(double dt);
   StepReport advance_simple(double dt);
   StepReport outer_iteration(double inverse_dt);
-  /// u, v <- free of divergence by the gradient of phi, solved to the tolerance given; p <- p + relax phi.
+  /// state.p_change <- what the last one promises for a step of dt.
+  void guess_pressure_change(double dt);
+  /// u, v <- free of divergence by the gradient of phi = state.p_change, solved from its present value to the tolerance
+  /// given; p <- p + relax phi.
   /// set_pressure_coefficients comes first.
   SolveReport project(double dt, double tolerance, double relax, double& mass_residual);
-  /// to <- scale x what flows out of each cell, when a field is given; returns the Euclidean norm of the outflow [m2/s].
+  /// to <- scale x what flows out of each cell, when a field is given; returns the Euclidean norm of the outflow
+  /// [m2/s].
   double sum_outflow(double scale, base::Field* to);
 
   Params params_;

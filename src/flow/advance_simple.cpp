@@ -18,6 +18,7 @@ StepReport Solver::outer_iteration(double inverse_dt) {
   set_pressure_coefficients();
   sum_outflow(1.0, &work_.outflow);
   report.residuals.p = simple_.pressure_residual(mesh_, params_.density, state.p, work_);
+  state.p_change.fill(0.0);
   report.pressure = project(1.0, std::max(params_.pressure_tolerance, correction_tolerance), params_.relax_pressure,
                             report.mass_residual);
   if (params_.closure != Closure::laminar)

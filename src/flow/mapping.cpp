@@ -59,7 +59,7 @@ void map_flow(const Solver& from, Solver& to) {
   fill_velocity_ghosts(b, to.boundary(), s.u, s.v);
   fill_scalar_ghosts(b, nullptr, s.nut);
   s.u_old = s.u, s.v_old = s.v, s.k_old = s.k, s.epsilon_old = s.epsilon;
-  for (base::Field* f : {&s.convection_u, &s.convection_v, &s.convection_k, &s.convection_e}) f->fill(0.0);
+  for (base::Field* f : {&s.p_change, &s.convection_u, &s.convection_v, &s.convection_k, &s.convection_e}) f->fill(0.0);
   s.step = 0;
 }
 

@@ -25,7 +25,8 @@ Workspace::Workspace(const Mesh& m)
       walls_v_(m.ny, 0),
       nx_(m.nx) {
   const Field f(m.nx, m.ny);
-  wall_c = next_a = next_b = convection = convection_e = change = change_e = exchange_y = phi = outflow = c_x = c_y = c_boundary = f;
+  wall_c = next_a = next_b = convection = convection_e = change = change_e = exchange_y = outflow = c_x = c_y =
+      c_boundary = f;
   for (double dx : m.dx_) per_dx.push_back(1.0 / dx);
   for (double h : m.dx_face_) per_dx_face.push_back(h > 0 ? 1.0 / h : 0.0);
   floor_c.assign(m.nx, 0.0);
@@ -55,11 +56,11 @@ Carrier centred_carrier(const State& s, double dt) {
 }
 
 Component u_component(const Staggering& at_u, State& s, Workspace& w) {
-  return {at_u,         true,         s.u,        s.u_old,      s.convection_u, s.load.beta_u,
+  return {at_u,           true,         s.u,        s.u_old,      s.convection_u, s.load.beta_u,
           s.load.force_u, w.friction_u, w.factor_u, w.response_u, w.handed_u};
 }
 Component v_component(const Staggering& at_v, State& s, Workspace& w) {
-  return {at_v,         false,        s.v,        s.v_old,      s.convection_v, s.load.beta_v,
+  return {at_v,           false,        s.v,        s.v_old,      s.convection_v, s.load.beta_v,
           s.load.force_v, w.friction_v, w.factor_v, w.response_v, w.handed_v};
 }
 
@@ -125,8 +126,8 @@ MomentumRows<Scheme>::MomentumRows(const Mesh& mesh, const Boundary& boundary, c
 template <class Scheme>
 void MomentumRows<Scheme>::start(int ja, int jb) {
   const Staggering& at = c_.at;
-  hands_on_ = std::any_of(c_.handed.begin(), c_.handed.end(),
-                          [&](const HandedOn& h) { return h.to_j >= ja && h.to_j < jb; });
+  hands_on_ =
+      std::any_of(c_.handed.begin(), c_.handed.end(), [&](const HandedOn& h) { return h.to_j >= ja && h.to_j < jb; });
   // Rows beside the block hand on to it.
   const int first = hands_on_ ? std::max(ja - 1, at.j0) : ja;
   last_ = hands_on_ ? std::min(jb, at.j1 - 1) : jb - 1;
@@ -144,8 +145,7 @@ void MomentumRows<Scheme>::fill_exchange_x(int j, double* k) const {
   const double *open = at.open_x.row(j), *per_hx = at.per_hx.data() + 2, nu = params_.viscosity;
   const int nx = m_.nx;
   // Along its own direction the diffusivity counts twice (2 Gamma du/dx).
-  if (c_.is_u)
-    return vector_loop(0, nx + 1, [&](int i) { k[i] = 2.0 * (nu + here[i - 1]) * open[i] * per_hx[i]; });
+  if (c_.is_u) return vector_loop(0, nx + 1, [&](int i) { k[i] = 2.0 * (nu + here[i - 1]) * open[i] * per_hx[i]; });
   vector_loop(0, nx + 1, [&](int i) {
     k[i] = (nu + 0.25 * (here[i - 1] + here[i] + below[i - 1] + below[i])) * open[i] * per_hx[i];
   });
@@ -176,8 +176,8 @@ void MomentumRows<Scheme>::hand_on(int j) {
   const Staggering& at = c_.at;
   for (const HandedOn& h : c_.handed)
     if (h.to_j == j)
-      convection_[j % 4][h.to_i] += h.share * convection_[h.from_j % 4][h.from_i] * at.inertia(h.from_i, h.from_j) /
-                                    at.inertia(h.to_i, h.to_j);
+      convection_[j % 4][h.to_i] +=
+          h.share * convection_[h.from_j % 4][h.from_i] * at.inertia(h.from_i, h.from_j) / at.inertia(h.to_i, h.to_j);
 }
 
 template <class Scheme>
@@ -205,9 +205,8 @@ void MomentumRows<Scheme>::next(double* d, double* kx) {
     const double *face = w_.face_y.row(j), *face_above = w_.face_y.row(j + 1);
     const double h = per_height * at.hy[j + 2], h_above = per_height * at.hy[j + 3];
     vector_loop(at.i0, at.i1, [&](int i) {
-      const double stress =
-          face_above[i - 1] * face_above[i] * ky_above[i] * h_above * (v_above[i] - v_above[i - 1]) -
-          face[i - 1] * face[i] * ky[i] * h * (v[i] - v[i - 1]);
+      const double stress = face_above[i - 1] * face_above[i] * ky_above[i] * h_above * (v_above[i] - v_above[i - 1]) -
+                            face[i - 1] * face[i] * ky[i] * h * (v[i] - v[i - 1]);
       outer[i] = (stress - open[i] * per_rho * (p[i] - p[i - 1])) * per_width[i];
     });
   } else {
@@ -269,7 +268,8 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
     const auto keep_y = [&](int j) {
       double* k = w.exchange_y.row(j);
       std::copy_n(rows.exchange_y(j), m.nx, k);
-      keep_implicit_part(at.i0, at.i1, dt, [per_h = at.per_hy[j + 2]](int) { return per_h; }, k);
+      keep_implicit_part(
+          at.i0, at.i1, dt, [per_h = at.per_hy[j + 2]](int) { return per_h; }, k);
     };
     rows.start(ja, jb);
     for (int j = ja; j < jb;) {
@@ -280,7 +280,8 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
         rows.next(d, kx[count]);
         std::copy_n(rows.convection(j) + at.i0, at.i1 - at.i0, w.convection.row(j) + at.i0);
         keep_y(j);
-        keep_implicit_part(at.i0, at.i1 + 1, dt, [&](int i) { return per_hx[i]; }, kx[count]);
+        keep_implicit_part(
+            at.i0, at.i1 + 1, dt, [&](int i) { return per_hx[i]; }, kx[count]);
         systems[count] = {c.factor.row(j), at.per_inertia.row(j), kx[count], d, slope[count]};
       }
       solve_rows(at, systems.data(), count);
@@ -289,8 +290,16 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
   });
   over_columns(at, w.columns, [&](int ia, int ib) {
     double *d = w.columns.piece(0), *slope = w.columns.piece(1);
-    solve_columns(at, c.factor, w.change, ia, ib, [&](int j) { return w.exchange_y.row(j); }, d, slope);
+    const auto exchange = [&](int j) {
+      if (j + rows_ahead < at.j1) base::fetch_ahead(w.exchange_y.row(j + rows_ahead), ia, ib);
+      return w.exchange_y.row(j);
+    };
+    solve_columns(at, c.factor, w.change, ia, ib, exchange, d, slope);
     for (int j = at.j0; j < at.j1; ++j) {
+      if (j + rows_ahead < at.j1) {
+        base::fetch_ahead(c.value.row(j + rows_ahead), ia, ib);
+        base::fetch_ahead<true>(next.row(j + rows_ahead), ia, ib);
+      }
       const double *u = c.value.row(j), *open = at.open.row(j), *change = d + j * ColumnScratch::columns - ia;
       double* to = next.row(j);
       vector_loop(ia, ib, [&](int i) { to[i] = open[i] > 0 ? u[i] + change[i] : 0.0; });

@@ -7,21 +7,21 @@ namespace livebed::flow {
 
 /// Fields that one step needs besides the state; allocated once.
 struct Workspace {
-  base::SharedRows face_x, face_y;  ///< openings of the cell faces [-]
-  std::vector<double> per_dx, per_dx_face;   ///< 1 / widths and distances of cells [1/m], two ghosts in front
+  base::SharedRows face_x, face_y;          ///< openings of the cell faces [-]
+  std::vector<double> per_dx, per_dx_face;  ///< 1 / widths and distances of cells [1/m], two ghosts in front
   std::vector<HandedOn> handed_u, handed_v;
-  std::vector<WallPart> wall_u, wall_v;        ///< the pipe as u and v meet it
-  std::vector<WallCell> wall_cells;            ///< the cells that hold a piece of its surface
-  base::Field wall_c;                          ///< friction factor x length of the pipe's surface in a cell [m2/s]
-  std::vector<double> floor_c, top_c;          ///< friction factor of floor and lid above cell i [m/s]
-  base::SharedRows friction_u, friction_v;     ///< wall friction of the volumes of u and v [m2/s]
-  base::SharedRows factor_u, factor_v;         ///< implicit factor of drag and friction [-]
-  base::SharedRows response_u, response_v;     ///< share of a pressure gradient that accelerates the face, after drag [-]
+  std::vector<WallPart> wall_u, wall_v;     ///< the pipe as u and v meet it
+  std::vector<WallCell> wall_cells;         ///< the cells that hold a piece of its surface
+  base::Field wall_c;                       ///< friction factor x length of the pipe's surface in a cell [m2/s]
+  std::vector<double> floor_c, top_c;       ///< friction factor of floor and lid above cell i [m/s]
+  base::SharedRows friction_u, friction_v;  ///< wall friction of the volumes of u and v [m2/s]
+  base::SharedRows factor_u, factor_v;      ///< implicit factor of drag and friction [-]
+  base::SharedRows response_u, response_v;  ///< share of a pressure gradient that accelerates the face, after drag [-]
   base::SharedRows ones;
-  base::Field next_a, next_b;                  ///< u, v, then k and epsilon at the new time, until they take their places
-  base::Field convection, convection_e;        ///< likewise
-  base::Field change, change_e, exchange_y;    ///< right-hand side and vertical exchange of the line systems
-  base::Field phi, outflow, c_x, c_y, c_boundary;
+  base::Field next_a, next_b;                ///< u, v, then k and epsilon at the new time, until they take their places
+  base::Field convection, convection_e;      ///< likewise
+  base::Field change, change_e, exchange_y;  ///< right-hand side and vertical exchange of the line systems
+  base::Field outflow, c_x, c_y, c_boundary;
   RowScratch rows;
   ColumnScratch columns;
   explicit Workspace(const Mesh& mesh);
@@ -54,7 +54,8 @@ struct Component {
 Component u_component(const Staggering& at_u, State& s, Workspace& w);
 Component v_component(const Staggering& at_v, State& s, Workspace& w);
 
-/// Eq. 2-3 row after row upwards, without the new pressure: what accelerates a component now, the old pressure among it.
+/// Eq. 2-3 row after row upwards, without the new pressure: what accelerates a component now, the old pressure among
+/// it.
 template <class Scheme>
 class MomentumRows {
 public:

@@ -69,8 +69,7 @@ struct Carrier {
 /// Rows of the carrying velocity with their ghosts, eight at a time.
 class CarrierRows {
 public:
-  CarrierRows(const Mesh& mesh, const Carrier& carrier, RowScratch::Rows& scratch)
-      : nx_(mesh.nx), carrier_(carrier) {
+  CarrierRows(const Mesh& mesh, const Carrier& carrier, RowScratch::Rows& scratch) : nx_(mesh.nx), carrier_(carrier) {
     for (int k = 0; k < kept; ++k) u_[k] = scratch.take(), v_[k] = scratch.take();
   }
   /// Rows first to last, and those after them as they are asked for.
@@ -106,7 +105,7 @@ struct Carried {
   const base::Field& convection;  ///< its rate of change by convection in that step [1/s]
   double per_last_step = 0;       ///< 1 / that step [1/s]; 0 = nothing known
   double dt = 0;                  ///< the face values are centred in the step to come [s]; 0 = taken as they are
-  bool positive = false;          ///< no half-step change may come near to emptying a cell
+  bool positive = false;          ///< only believed changes of it count (believed_change)
   const base::Field& nut;         ///< with nu: diffusivity at cell centres (hybrid scheme)
   double nu = 0;
 };
@@ -159,28 +158,31 @@ private:
     }
     const double *p = q_.value.row(j), *below = q_.value.row(j - 1), *above = q_.value.row(j + 1),
                  *before = q_.before.row(j), *convection = q_.convection.row(j);
-    const double *ua = carrier_.u(j - sy) - sx, *ub = carrier_.u(j), *va = carrier_.v(j - sy) - sx,
-                 *vb = carrier_.v(j), *vc = carrier_.v(j - sy + 1) - sx, *vd = carrier_.v(j + 1);
+    const double *ua = carrier_.u(j - sy) - sx, *ub = carrier_.u(j), *va = carrier_.v(j - sy) - sx, *vb = carrier_.v(j),
+                 *vc = carrier_.v(j - sy + 1) - sx, *vd = carrier_.v(j + 1);
     const double* per_hx = at.per_hx.data() + 2;
     const double per_below = at.per_hy[j + 2], per_above = at.per_hy[j + 3];
     const double half = 0.5 * q_.dt, per_last = q_.per_last_step;
-    const double least = q_.positive ? 0.25 : std::numeric_limits<double>::infinity();
-    const auto run = [&](auto limited) {
-      base::vector_loop(at.i0 - 1, at.i1 + 1, [&](int i) {
-        const double u = 0.25 * (ua[i] + ub[i] + ua[i + 1] + ub[i + 1]);
-        const double v = 0.25 * (va[i] + vb[i] + vc[i] + vd[i]);
-        const double slope_x = u > 0 ? (p[i] - p[i - 1]) * per_hx[i] : (p[i + 1] - p[i]) * per_hx[i + 1];
-        const double slope_y = v > 0 ? (p[i] - below[i]) * per_below : (above[i] - p[i]) * per_above;
-        double alone = half * (per_last * (p[i] - before[i]) - convection[i]);
-        if constexpr (limited) alone = std::min(std::max(alone, -least * p[i]), least * p[i]);
-        across_x[i] = alone - half * v * slope_y;
-        across_y[i] = alone - half * u * slope_x;
-      });
+    const auto change = [&](int i, double alone) {
+      const double u = 0.25 * (ua[i] + ub[i] + ua[i + 1] + ub[i + 1]);
+      const double v = 0.25 * (va[i] + vb[i] + vc[i] + vd[i]);
+      const double slope_x = u > 0 ? (p[i] - p[i - 1]) * per_hx[i] : (p[i + 1] - p[i]) * per_hx[i + 1];
+      const double slope_y = v > 0 ? (p[i] - below[i]) * per_below : (above[i] - p[i]) * per_above;
+      across_x[i] = alone - half * v * slope_y;
+      across_y[i] = alone - half * u * slope_x;
     };
-    if (q_.positive)
-      run(std::true_type{});
+    const auto run = [&](auto alone) {
+      base::vector_loop(at.i0, at.i1,
+                        [&](int i) { change(i, alone(half * (per_last * (p[i] - before[i]) - convection[i]), i)); });
+    };
+    // What lies outside is given by what lies inside: running ahead of itself it would feed back without bound.
+    change(at.i0 - 1, 0.0), change(at.i1, 0.0);
+    if (j < at.j0 || j >= at.j1)
+      run([](double, int) { return 0.0; });
+    else if (q_.positive)
+      run([&](double alone, int i) { return believed_change(alone, p[i]); });
     else
-      run(std::false_type{});
+      run([](double alone, int) { return alone; });
   }
 
   void west_fluxes(int j) {
@@ -213,9 +215,9 @@ private:
     const double before = at.to_south[j + 2], after = at.from_south[j + 2], dt = q_.dt, nu = q_.nu;
     base::vector_loop(at.i0, at.i1, [&](int i) {
       const Stencil4 s{mm[i], m[i], p[i], pp[i], h, per_mm, per_h, per_pp, before, after};
-      flux[i] = (share_a[i] * va[i] * open_a[i] + share_b[i] * vb[i] * open_b[i]) *
-                Scheme::face(s, 0.5 * (va[i] + vb[i]), dt, change_below[i], change[i],
-                             nu + 0.5 * (nut_below[i] + nut[i]));
+      flux[i] =
+          (share_a[i] * va[i] * open_a[i] + share_b[i] * vb[i] * open_b[i]) *
+          Scheme::face(s, 0.5 * (va[i] + vb[i]), dt, change_below[i], change[i], nu + 0.5 * (nut_below[i] + nut[i]));
     });
   }
 
@@ -271,7 +273,9 @@ public:
       of_thread_.emplace_back(static_cast<std::size_t>(pieces) * columns * (ny_ + 1));
   }
   /// Piece n of the calling thread: rows of 64 values, from row 0 on.
-  double* piece(int n) { return of_thread_[base::thread_index()].data() + static_cast<std::size_t>(n) * columns * (ny_ + 1); }
+  double* piece(int n) {
+    return of_thread_[base::thread_index()].data() + static_cast<std::size_t>(n) * columns * (ny_ + 1);
+  }
 
 private:
   static constexpr int pieces = 4;
@@ -279,12 +283,15 @@ private:
   std::vector<base::AlignedVector<double>> of_thread_;
 };
 
+/// How far ahead of a walk down columns its rows are asked for.
+inline constexpr int rows_ahead = 16;
+
 /// Columns [ia, ib) along y, at most 64, solved into `d` (rows of 64 values):
 ///   (factor + s + n) d - s d_south - n d_north = factor x given,   s = k_south / height / inertia, n = k_north / ...,
 /// with k(j)[i] from keep_implicit_part [m].  What lies outside the unknowns is 0.
 template <class K>
-void solve_columns(const Staggering& at, const base::SharedRows& factor, const base::Field& given, int ia, int ib, K&& k,
-                   double* d, double* slope) {
+void solve_columns(const Staggering& at, const base::SharedRows& factor, const base::Field& given, int ia, int ib,
+                   K&& k, double* d, double* slope) {
   constexpr int wide = ColumnScratch::columns;
   const int n = ib - ia;
   for (int j = at.j0; j < at.j1; ++j) {
@@ -294,6 +301,7 @@ void solve_columns(const Staggering& at, const base::SharedRows& factor, const b
     double *here = d + j * wide, *s = slope + j * wide;
     const double* below = j > at.j0 ? here - wide : here;
     const double* s_below = j > at.j0 ? s - wide : s;
+    if (j + rows_ahead < at.j1) base::fetch_ahead(given.row(j + rows_ahead), ia, ib);
     base::vector_loop(0, n, [&](int i) {
       const double scale = per_height * per_inertia[i];
       const double south = scale * south_k[i], north = scale * north_k[i];

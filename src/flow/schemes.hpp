@@ -12,12 +12,21 @@ inline double limited_slope(double a, double b) {
   return product > 0 ? 2.0 * product / (a + b) : 0.0;
 }
 
+/// What is believed of the change that the history of a positive quantity promises for half a step: all of it while it
+/// is a small share of the value (second order in time), ever less beyond.  Where a quantity jumps from step to step,
+/// as beside a wall function, running ahead would make it swing.
+inline double believed_change(double change, double value) {
+  constexpr double resolved = 0.05;  // of the value
+  const double jump = change / (resolved * value);
+  return change / (1.0 + jump * jump);
+}
+
 /// The four nodes about a face and their distances: mm, m | p, pp.
 struct Stencil4 {
-  double mm, m, p, pp;             ///< values
-  double h;                        ///< distance m-p [m]
-  double per_mm, per_h, per_pp;    ///< 1 / distances mm-m, m-p, p-pp [1/m]
-  double to_face_m, to_face_p;     ///< distances of m and p from the face [m]
+  double mm, m, p, pp;           ///< values
+  double h;                      ///< distance m-p [m]
+  double per_mm, per_h, per_pp;  ///< 1 / distances mm-m, m-p, p-pp [1/m]
+  double to_face_m, to_face_p;   ///< distances of m and p from the face [m]
 };
 
 /// Bounded second order in space and time (a Hancock step): upwind node plus the limited slope over the part of the

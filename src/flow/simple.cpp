@@ -31,9 +31,7 @@ std::string Residuals::text() const {
   return fmt::format("Ux {:.2e}, Uy {:.2e}, p {:.2e}, k {:.2e}, epsilon {:.2e}", u, v, p, k, epsilon);
 }
 
-Simple::Simple(const Mesh& m) : system_(m) {
-  carrier_u_ = carrier_v_ = old_k_ = old_e_ = Field(m.nx, m.ny);
-}
+Simple::Simple(const Mesh& m) : system_(m) { carrier_u_ = carrier_v_ = old_k_ = old_e_ = Field(m.nx, m.ny); }
 
 void Simple::begin_step(State& s) {
   copy(s.u, s.u_old);
@@ -133,7 +131,8 @@ void Simple::solve_momentum(const Mesh& m, const Boundary& b, const Params& para
     const bool loaded = j < s.load.top;
     const double drag = loaded ? s.load.beta_u(n, j) / rho : 0.0;
     const double force = carried * (s.u(n - 1, j) - s.u(n, j)) + s.p(n - 1, j) / (rho * half) +
-                         (loaded ? s.load.force_u(n, j) / rho : 0.0) - drag * s.u(n, j) - inverse_dt * (s.u(n, j) - s.u_old(n, j));
+                         (loaded ? s.load.force_u(n, j) / rho : 0.0) - drag * s.u(n, j) -
+                         inverse_dt * (s.u(n, j) - s.u_old(n, j));
     const double centre = (carried + drag + inverse_dt) / params.relax_velocity;
     const double least = params.viscosity / (half * half);  // an outlet at rest keeps a finite response
     const double response = 1.0 / std::max(centre, least);
@@ -194,10 +193,9 @@ double Simple::solve_scalar(const Mesh& m, const Params& params, const Staggerin
         rhs[i] = M * (rate[i] - inverse_dt * (c[i] - c_old[i]));
         // What the right-hand side would hold for the new value itself; taken implicitly where it is negative, so that
         // the value stays positive (Patankar 1980).
-        const double inflow = (west[i] - height * kx[i]) * (c[i] - c[i - 1]) +
-                              (east[i] - height * kx[i + 1]) * (c[i] - c[i + 1]) +
-                              (south[i] - width[i] * ky[i]) * (c[i] - below[i]) +
-                              (north[i] - width[i] * ky_above[i]) * (c[i] - above[i]);
+        const double inflow =
+            (west[i] - height * kx[i]) * (c[i] - c[i - 1]) + (east[i] - height * kx[i + 1]) * (c[i] - c[i + 1]) +
+            (south[i] - width[i] * ky[i]) * (c[i] - below[i]) + (north[i] - width[i] * ky_above[i]) * (c[i] - above[i]);
         const double given = M * (convection[i] + gain[i]) + inflow;
         centre[i] += M * (decay[i] + inverse_dt) + (given < 0 ? -given / c[i] : 0.0);
       });

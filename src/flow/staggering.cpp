@@ -105,13 +105,13 @@ Staggering make(const Mesh& m, int shift_x, int shift_y) {
       open(i, j) = shift_x ? m.aperture_x(i, j) : shift_y ? m.aperture_y(i, j) : m.volume(i, j);
       const double before = m.volume(a, b), here = m.volume(i, j);
       // Equal openings give their own value to the last bit, so that rows without pipe are all alike.
-      volume(i, j) = before == here
-                         ? here
-                         : 0.5 * (before * m.dx(a) * m.dy(b) + here * m.dx(i) * m.dy(j)) / s.whole(i, j);
+      volume(i, j) =
+          before == here ? here : 0.5 * (before * m.dx(a) * m.dy(b) + here * m.dx(i) * m.dy(j)) / s.whole(i, j);
     }
   for (int j = 0; j < m.ny; ++j)
     for (int i = 0; i < m.nx; ++i) {
-      const double widest = std::max(std::max(open_x(i, j), open_x(i + 1, j)), std::max(open_y(i, j), open_y(i, j + 1)));
+      const double widest =
+          std::max(std::max(open_x(i, j), open_x(i + 1, j)), std::max(open_y(i, j), open_y(i, j + 1)));
       inertia(i, j) = std::max({volume(i, j), open(i, j), 0.5 * widest});
       if (inertia(i, j) <= 0) inertia(i, j) = 1;  // solid: nothing moves, nothing divides by zero
     }

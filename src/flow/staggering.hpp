@@ -46,17 +46,17 @@ struct Staggering {
   base::SharedRows open_volume;  ///< of the volume [-]
   base::SharedRows inertia_;     ///< the same, but never much less than the open faces: a sliver would need a tiny step
   base::SharedRows per_inertia;  ///< 1/inertia_
-  base::SharedRows open;         ///< of the face (of the cell) the quantity lives on: what a pressure gradient pushes, so
-                                 ///< that the volumes lose to the pipe exactly the pressure on its surface
+  base::SharedRows open;  ///< of the face (of the cell) the quantity lives on: what a pressure gradient pushes, so
+                          ///< that the volumes lose to the pipe exactly the pressure on its surface
   /// West and south faces of the volumes as friction sees them [-]: 0 towards a closed volume, whose wall already has
   /// its friction, and larger where the pipe leaves the open parts of two faces closer than the faces.
   base::SharedRows open_x, open_y;
 
   double whole(int i, int j) const { return width[i + 2] * height[j + 2]; }
-  double volume(int i, int j) const { return open_volume(i, j) * whole(i, j); }       ///< [m2 per unit of depth]
-  double inertia(int i, int j) const { return inertia_(i, j) * whole(i, j); }         ///< [m2]
-  double area_x(int i, int j) const { return open_x(i, j) * height[j + 2]; }          ///< [m]
-  double area_y(int i, int j) const { return open_y(i, j) * width[i + 2]; }           ///< [m]
+  double volume(int i, int j) const { return open_volume(i, j) * whole(i, j); }  ///< [m2 per unit of depth]
+  double inertia(int i, int j) const { return inertia_(i, j) * whole(i, j); }    ///< [m2]
+  double area_x(int i, int j) const { return open_x(i, j) * height[j + 2]; }     ///< [m]
+  double area_y(int i, int j) const { return open_y(i, j) * width[i + 2]; }      ///< [m]
 
   static Staggering centres(const Mesh& mesh);
   static Staggering west_faces(const Mesh& mesh);

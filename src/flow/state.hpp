@@ -15,17 +15,18 @@ struct Load {
 /// in the step of the other.  All fields have mesh.nx x mesh.ny cells and two ghosts; u(nx,j) and v(i,ny) are
 /// the outlet and top faces.
 struct State {
-  base::Field u, v;            ///< velocity [m/s]; of the open part of cut faces, 0 on closed ones
-  base::Field p;               ///< dynamic pressure [Pa]
-  base::Field nut;             ///< eddy viscosity [m2/s]
-  base::Field k;               ///< turbulent kinetic energy [m2/s2]
-  base::Field epsilon;         ///< its dissipation [m2/s3]
-  base::Field u_old, v_old;    ///< one step ago, likewise below: face values are centred in time with their help
+  base::Field u, v;          ///< velocity [m/s]; of the open part of cut faces, 0 on closed ones
+  base::Field p;             ///< dynamic pressure [Pa]
+  base::Field p_change;      ///< of p in the last step [Pa]: where the solve for the next change starts
+  base::Field nut;           ///< eddy viscosity [m2/s]
+  base::Field k;             ///< turbulent kinetic energy [m2/s2]
+  base::Field epsilon;       ///< its dissipation [m2/s3]
+  base::Field u_old, v_old;  ///< one step ago, likewise below: face values are centred in time with their help
   base::Field k_old, epsilon_old;
-  base::Field convection_u, convection_v;   ///< rates of change by convection in the last step [m/s2]
-  base::Field convection_k, convection_e;   ///< of k and the second quantity of the closure [m2/s3], [its unit/s]
-  double step = 0;             ///< last time step [s]
-  double time = 0;             ///< [s] since the spin-up began
+  base::Field convection_u, convection_v;  ///< rates of change by convection in the last step [m/s2]
+  base::Field convection_k, convection_e;  ///< of k and the second quantity of the closure [m2/s3], [its unit/s]
+  double step = 0;                         ///< last time step [s]
+  double time = 0;                         ///< [s] since the spin-up began
   Load load;
 };
 

@@ -113,7 +113,8 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
           (of_k ? rows_k : rows_e).next(rate, convection, gain, decay, kx[q][count]);
           set_up_row(turbulence, m, of_k, j, dt, (of_k ? s.k : turbulence.second(s)).row(j), rate, decay, d,
                      factor[q][count]);
-          keep_implicit_part(0, m.nx + 1, dt, [&](int i) { return per_hx[i]; }, kx[q][count]);
+          keep_implicit_part(
+              0, m.nx + 1, dt, [&](int i) { return per_hx[i]; }, kx[q][count]);
           systems[q][count] = {factor[q][count], at.per_inertia.row(j), kx[q][count], d, slope[count]};
         }
       for (int q : {0, 1}) solve_rows(at, systems[q].data(), count);
@@ -128,8 +129,10 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
       const auto exchange_of = [&](int j) {
         double* k = exchange[j % 2];
         if (j > filled) {
+          if (j + rows_ahead < m.ny) base::fetch_ahead(turbulence.nut().row(j + rows_ahead), ia, ib);
           turbulence.fill_exchange_y(m, params, at, of_k, j, ia, ib, k);
-          keep_implicit_part(0, ib - ia, dt, [per_h = at.per_hy[j + 2]](int) { return per_h; }, k);
+          keep_implicit_part(
+              0, ib - ia, dt, [per_h = at.per_hy[j + 2]](int) { return per_h; }, k);
           filled = j;
         }
         return k - ia;
@@ -138,6 +141,7 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
       const Field& now = of_k ? s.k : turbulence.second(s);
       const double floor = of_k ? k_floor : turbulence.second_floor();
       for (int j = 0; j < m.ny; ++j) {
+        if (j + rows_ahead < m.ny) base::fetch_ahead(now.row(j + rows_ahead), ia, ib);
         const double* c = now.row(j) + ia;
         double* here = d + j * wide;
         vector_loop(0, ib - ia, [&](int i) { here[i] = std::max(positive_sum(c[i], here[i]), floor); });
@@ -149,8 +153,11 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
     double *k = w.columns.piece(0), *e = w.columns.piece(1), *slope = w.columns.piece(2);
     solve(true, k, slope);
     solve(false, e, slope);
-    for (int j = 0; j < m.ny; ++j)
+    for (int j = 0; j < m.ny; ++j) {
+      if (j + rows_ahead < m.ny)
+        for (Field* to : {&w.next_a, &w.next_b, &s.nut}) base::fetch_ahead<true>(to->row(j + rows_ahead), ia, ib);
       turbulence.store(params, j, ia, ib, k + j * wide, e + j * wide, w.next_a.row(j), w.next_b.row(j), s.nut.row(j));
+    }
   });
   s.k_old.swap(s.k), s.k.swap(w.next_a);
   s.epsilon_old.swap(s.epsilon), s.epsilon.swap(w.next_b);

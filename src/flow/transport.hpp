@@ -10,8 +10,8 @@ public:
   ScalarRows(const Mesh& mesh, const Params& params, const Turbulence& turbulence, const Staggering& at, bool of_k,
              const State& s, CarrierRows& carrier, double lead, Workspace& w, RowScratch::Rows& scratch);
   void start(int j);
-  /// The next row: rate <- all of dc/dt now [c/s]; convection, gain <- those parts of it; decay <- [1/s]; kx <- exchange
-  /// across west faces [m/s].
+  /// The next row: rate <- all of dc/dt now [c/s]; convection, gain <- those parts of it; decay <- [1/s]; kx <-
+  /// exchange across west faces [m/s].
   void next(double* rate, double* convection, double* gain, double* decay, double* kx);
   const double* exchange_y(int j) const { return exchange_y_[j % 2]; }
 

@@ -8,8 +8,8 @@
 namespace livebed::flow {
 
 using base::Field;
-using base::SharedRows;
 using base::for_each_item;
+using base::SharedRows;
 using base::square;
 using base::vector_loop;
 
@@ -124,9 +124,7 @@ void Turbulence::set_walls(const Params& params, const State& s, const Workspace
 namespace {
 
 /// A quantity that stays positive, centred in the step to come by what it did in the last one.
-double centred(double now, double before, double ahead) {
-  return std::min(std::max(now + ahead * (now - before), 0.5 * now), 2.0 * now);
-}
+double centred(double now, double before, double ahead) { return now + believed_change(ahead * (now - before), now); }
 
 }  // namespace
 
@@ -216,8 +214,8 @@ void Turbulence::fill_rates(const Mesh& m, bool of_k, int j, const State& s, dou
             });
           } else {
             vector_loop(0, m.nx, [&](int i) {
-              const Rates r = rates(Local{centred(k[i], ko[i], ahead), centred(e[i], eo[i], ahead), nut[i], strain[i],
-                                          0.0, 0.0});
+              const Rates r =
+                  rates(Local{centred(k[i], ko[i], ahead), centred(e[i], eo[i], ahead), nut[i], strain[i], 0.0, 0.0});
               gain[i] = r.gain, decay[i] = r.decay;
             });
           }

@@ -15,8 +15,8 @@ class Turbulence {
 public:
   Turbulence(const Mesh& mesh, const Boundary& boundary, const Params& params);
 
-  /// Strain of the present velocity, eddy viscosity, omega and the blending of the law, all `ahead` of the present k and
-  /// epsilon by that share of the last step; values of the wall cells.  Fills the ghosts of k and e.
+  /// Strain of the present velocity, eddy viscosity, omega and the blending of the law, all `ahead` of the present k
+  /// and epsilon by that share of the last step; values of the wall cells.  Fills the ghosts of k and e.
   void prepare(const Mesh& mesh, const Boundary& boundary, const Params& params, double ahead, State& s,
                const Workspace& w);
 
@@ -46,8 +46,8 @@ public:
     for (int n = fixed.first[j]; n < fixed.first[j + 1]; ++n) set(fixed.cells[n].i, fixed.cells[n].value);
   }
   /// Takes k and e of cells ia <= i < ib of row j: k, epsilon and nut of that piece of the new state.
-  void store(const Params& params, int j, int ia, int ib, const double* k, const double* e,
-             double* to_k, double* to_epsilon, double* to_nut) const;
+  void store(const Params& params, int j, int ia, int ib, const double* k, const double* e, double* to_k,
+             double* to_epsilon, double* to_nut) const;
 
 private:
   /// A cell at floor, lid or pipe.
@@ -55,8 +55,8 @@ private:
     int i, j;
     enum Where { floor, lid, pipe } where;
     Wall wall;
-    double y, length;      ///< distance of its centre from the wall, length of the wall in it [m]
-    double per_inertia;    ///< 1 / inertia of the cell [1/m2]
+    double y, length;            ///< distance of its centre from the wall, length of the wall in it [m]
+    double per_inertia;          ///< 1 / inertia of the cell [1/m2]
     double gain = 0, decay = 0;  ///< of k, where k-omega solves it at walls: all its gain, and decay besides the law's
   };
   struct FixedCell {
@@ -66,8 +66,8 @@ private:
   /// Cells whose value is given, not solved, row by row.
   struct FixedCells {
     std::vector<FixedCell> cells;
-    std::vector<int> first;   ///< of each row
-    std::vector<int> of_wall; ///< index of the cell of each place at a wall
+    std::vector<int> first;    ///< of each row
+    std::vector<int> of_wall;  ///< index of the cell of each place at a wall
   };
   static double shear_velocity(const WallPlace& place, const State& s, const Workspace& w);
   template <class Fill>
@@ -80,9 +80,9 @@ private:
   base::SharedRows factor_k_, factor_e_;
   std::vector<double> inlet_k_, inlet_e_;
   base::SharedRows open_x_, open_y_, volume_;
-  base::Field distance_;               ///< of cells from the nearest wall [m]
-  base::Field strain_;                 ///< S^2 [1/s2]
-  base::Field nut_;                    ///< centred in the step to come [m2/s]
+  base::Field distance_;                           ///< of cells from the nearest wall [m]
+  base::Field strain_;                             ///< S^2 [1/s2]
+  base::Field nut_;                                ///< centred in the step to come [m2/s]
   base::Field omega_, omega_old_, cross_, blend_;  ///< of omega closures
   double ahead_ = 0;
 };

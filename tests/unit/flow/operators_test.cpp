@@ -123,7 +123,8 @@ TEST(solve_rows, inverts_its_own_matrices) {
       const base::SharedRows factor_rows(factor);
       over_columns(at, scratch, [&](int ia, int ib) {
         double* d = scratch.piece(0);
-        solve_columns(at, factor_rows, given, ia, ib, [&](int j) { return k.row(j); }, d, scratch.piece(1));
+        solve_columns(
+            at, factor_rows, given, ia, ib, [&](int j) { return k.row(j); }, d, scratch.piece(1));
         for (int j = at.j0; j < at.j1; ++j)
           for (int i = ia; i < ib; ++i) phi(i, j) = d[j * ColumnScratch::columns + i - ia];
       });
@@ -144,9 +145,11 @@ TEST(solve_rows, inverts_its_own_matrices) {
 
 TEST(keep_implicit_part, is_half_of_small_and_nearly_all_of_large_exchanges) {
   std::vector<double> k{1e-4, 2e-4, 1e-4, 50.0};
-  keep_implicit_part(0, 2, 0.1, [](int) { return 100.0; }, k.data());
+  keep_implicit_part(
+      0, 2, 0.1, [](int) { return 100.0; }, k.data());
   EXPECT_DOUBLE_EQ(k[0], 0.5 * 0.1 * 1e-4);
-  keep_implicit_part(2, 4, 0.1, [](int) { return 100.0; }, k.data());
+  keep_implicit_part(
+      2, 4, 0.1, [](int) { return 100.0; }, k.data());
   EXPECT_DOUBLE_EQ(k[2], 0.5 * 0.1 * 1e-4);
   EXPECT_DOUBLE_EQ(k[3], 0.1 * 50.0 * (1 - 0.5 / 500.0));
 }
