@@ -29,7 +29,8 @@ ROWS_186 = "OpenFOAM 20k, pipe 0.93 mm"
 HIGH_RE = "OpenFOAM 9k, nutk, Re 190000, pipe 0.23 mm"
 
 # name: (what runs, with what it is compared, options).  Means over ten shedding periods or more; OpenFOAM's finer
-# meshes start from the coarser one's flow.  nutU is Livebed's smooth law: log law of the speed, viscous below where they meet;
+# meshes start from the coarser one's flow.  nutU is Livebed's smooth law: log law of the speed, viscous below where they
+# meet;
 # nutk takes u* from k.  "pipe 0.93 mm": height of the cells on the pipe, 1.86 mm otherwise; 1.86 mm on the bed in all.
 RUNS = {
     "OpenFOAM 9k": ("openfoam", ROWS_94, dict(level="coarse", end=20, start=8, wall="nutU")),
