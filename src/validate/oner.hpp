@@ -12,7 +12,8 @@ Result oner(const Tell& tell);
 /// What sets the Strouhal number: the depth of the experiment, 12 D, and single changes of profile, scheme and grid.
 Result oner_depth(const Tell& tell);
 
-/// The paper's grid, 1500 x 260: e/D 0.3 and 0, each closure, beside the usual grid.
+/// The paper's grid, 1500 x 260: e/D 0.3 and 0 beside the usual grid, with the paper's closure and with the others.
 Result oner_fine(const Tell& tell);
+Result oner_fine_closures(const Tell& tell);
 
 }  // namespace livebed::validate
