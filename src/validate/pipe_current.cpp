@@ -21,6 +21,7 @@ using base::square;
 namespace {
 
 constexpr double D = pipe_diameter, U0 = depth_mean_speed, turnover = D / U0;
+constexpr double courant = 0.8;
 constexpr double settle = 20;          ///< on the own grid after a start from a coarser one [D/U0]
 constexpr double box_half = 0.6;       ///< [D]
 constexpr double steady_below = 2e-3;  ///< rms lift coefficient that counts as none [-]
@@ -45,7 +46,7 @@ flow::Params params(const PipeSetup& c) {
   p.viscosity = U0 * D / reynolds_D;
   p.closure = c.closure;
   p.convection = c.convection;
-  p.courant = c.courant;
+  p.courant = courant;
   p.max_step = 0.1 * turnover;
   p.floor = flow::Wall::smooth;
   p.mesh.length = box_length * D, p.mesh.height = c.depth * D;
@@ -127,7 +128,6 @@ std::string PipeSetup::name() const {
   if (profile == flow::Profile::uniform) text += "-uniform";
   if (profile_depth > 0) text += fmt::format("-profile{}", profile_depth);
   if (convection == flow::Convection::hybrid) text += "-hybrid";
-  if (courant != PipeSetup{}.courant) text += fmt::format("-courant{}", courant);
   if (record != PipeSetup{}.record) text += fmt::format("-record{}", record);
   return text;
 }

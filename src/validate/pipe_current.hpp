@@ -29,7 +29,6 @@ struct PipeSetup {
   flow::Profile profile = flow::Profile::smooth;
   double profile_depth = 0;  ///< over which the inlet's mean is U0 [D]; 0 = the whole depth
   flow::Convection convection = flow::Convection::bounded;
-  double courant = 0.8;
   double spin_up = 60, record = 130;  ///< [D/U0]; a finer grid than the usual one starts from a flow on that one
 
   std::string name() const;  ///< of its folder
@@ -66,15 +65,14 @@ struct PipeRun {
 /// Numbers of a run.
 struct PipeNumbers {
   double cd = 0, cl = 0, cl_rms = 0;
-  double strouhal = 0, strouhal_wake = 0;  ///< of lift and v_wake, with U0; 0 when the flow is steady
-  double periods = 0;                      ///< in the record
-  double slowest = 0, fastest = 0;         ///< Strouhal numbers of stretches of five periods
-  double far_shear = 0;                    ///< mean over x = -8 to -5 D
-  double peak_shear = 0, peak_at = 0;      ///< largest within 1 D of the centre
-  double eddy_before = 0;                  ///< length of the floor with backward shear upstream [D]
-  double separation = 0,
-         reattachment = 0;  ///< first and last change of sign of the floor's shear behind x = 0; 0 if none
-  double wake_end = 0;      ///< where mean u on the axis turns forward, from the centre; 0 if nowhere
+  double strouhal = 0, strouhal_wake = 0;   ///< of lift and v_wake, with U0; 0 when the flow is steady
+  double periods = 0;                       ///< in the record
+  double slowest = 0, fastest = 0;          ///< Strouhal numbers of stretches of five periods
+  double far_shear = 0;                     ///< mean over x = -8 to -5 D
+  double peak_shear = 0, peak_at = 0;       ///< largest within 1 D of the centre
+  double eddy_before = 0;                   ///< length of the floor with backward shear upstream [D]
+  double separation = 0, reattachment = 0;  ///< first, last change of sign of the floor's shear behind x = 0; 0 if none
+  double wake_end = 0;                      ///< where mean u on the axis turns forward, from the centre; 0 if nowhere
   bool steady() const { return strouhal == 0; }
 };
 
