@@ -1,6 +1,7 @@
 #include "flow/advance.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "base/fault.hpp"
 #include "base/loops.hpp"
@@ -17,6 +18,7 @@ using base::vector_loop;
 Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
     : params_(params),
       mesh_(mesh),
+      water_(mesh),
       boundary_(boundary),
       at_u_(Staggering::west_faces(mesh)),
       at_v_(Staggering::south_faces(mesh)),
@@ -33,6 +35,21 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
   s.epsilon = s.epsilon_old = Field(mesh.nx, mesh.ny, 2, epsilon_floor);
   s.load = {0, zero, zero, zero, zero};
   if (params.algorithm == Algorithm::simple) work_.own_rows(mesh.ny);
+}
+
+void Solver::set_voidage(const Field& voidage, double interval) {
+  const Mesh before = std::exchange(water_, fill_with_voids(mesh_, voidage));
+  at_u_ = Staggering::west_faces(water_);
+  at_v_ = Staggering::south_faces(water_);
+  at_c_ = Staggering::centres(water_);
+  work_.face_x = base::SharedRows(water_.aperture_x);
+  work_.face_y = base::SharedRows(water_.aperture_y);
+  coefficients_set_ = false;
+  work_.storage = interval > 0 ? Field(mesh_.nx, mesh_.ny) : Field();
+  if (interval <= 0) return;
+  for (int j = 0; j < mesh_.ny; ++j)
+    for (int i = 0; i < mesh_.nx; ++i)
+      work_.storage(i, j) = (water_.volume(i, j) - before.volume(i, j)) * mesh_.dx(i) * mesh_.dy(j) / interval;
 }
 
 void Solver::start() {
@@ -91,28 +108,32 @@ void Solver::set_pressure_coefficients() {
       cx[i] = ax[i] * ru[i] * dy * per_hx[i];
       cy[i] = ay[i] * rv[i] * dx[i] * per_hy;
     });
-    if (boundary_.outlet) work_.c_boundary(m.nx - 1, j) = ru[m.nx] * dy / (0.5 * dx[m.nx - 1]);
+    if (boundary_.outlet) work_.c_boundary(m.nx - 1, j) = ax[m.nx] * ru[m.nx] * dy / (0.5 * dx[m.nx - 1]);
   });
   pressure_.set_coefficients(work_.c_x, work_.c_y, work_.c_boundary);
 }
 
 double Solver::sum_outflow(double scale, Field* to) {
   const Mesh& m = mesh_;
-  return std::sqrt(base::ordered_sum(
-             0, m.ny, partial_,
-             [&](int j) {
-               const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1),
-                            *ax = work_.face_x.row(j);
-               const double *ay = work_.face_y.row(j), *aya = work_.face_y.row(j + 1), *dx = m.dx_.data() + 2;
-               const double dy = m.dy(j);
-               const auto out = [&](int i) {
-                 return (ax[i + 1] * u[i + 1] - ax[i] * u[i]) * dy + (aya[i] * va[i] - ay[i] * v[i]) * dx[i];
-               };
-               if (!to) return base::vector_sum(0, m.nx, [&](int i) { return out(i) * out(i); });
-               double* b = to->row(j);
-               vector_loop(0, m.nx, [&](int i) { b[i] = scale * out(i); });
-               return base::vector_sum(0, m.nx, [&](int i) { return b[i] * b[i]; });
-             })) /
+  return std::sqrt(base::ordered_sum(0, m.ny, partial_,
+                                     [&](int j) {
+                                       const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1),
+                                                    *ax = work_.face_x.row(j);
+                                       const double *ay = work_.face_y.row(j), *aya = work_.face_y.row(j + 1),
+                                                    *dx = m.dx_.data() + 2;
+                                       const double dy = m.dy(j);
+                                       const double* stored =
+                                           work_.storage.nx() > 0 ? work_.storage.row(j) : work_.nothing.data();
+                                       const auto out = [&](int i) {
+                                         return (ax[i + 1] * u[i + 1] - ax[i] * u[i]) * dy +
+                                                (aya[i] * va[i] - ay[i] * v[i]) * dx[i] + stored[i];
+                                       };
+                                       if (!to)
+                                         return base::vector_sum(0, m.nx, [&](int i) { return out(i) * out(i); });
+                                       double* b = to->row(j);
+                                       vector_loop(0, m.nx, [&](int i) { b[i] = scale * out(i); });
+                                       return base::vector_sum(0, m.nx, [&](int i) { return b[i] * b[i]; });
+                                     })) /
          (to ? std::abs(scale) : 1.0);
 }
 

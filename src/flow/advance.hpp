@@ -31,6 +31,11 @@ public:
   /// Inlet profiles everywhere (0 in the bed), made free of divergence.
   void start();
 
+  /// The share of every cell that holds water [-], 0 < voidage <= 1 (1 at first), from now on; interval: time since the
+  /// last one was given [s], over which the difference comes about in the step to come, 0 when it is to count as always
+  /// so.  Throws Fault (invalid case) for a value out of range.
+  void set_voidage(const base::Field& voidage, double interval);
+
   /// Largest step that keeps the Courant number at params.courant [s], never above params.max_step; SIMPLE takes
   /// max_step at any Courant number.
   double step_limit() const;
@@ -84,7 +89,8 @@ private:
   double sum_outflow(double scale, base::Field* to);
 
   Params params_;
-  Mesh mesh_;
+  Mesh mesh_;   ///< with the pipe cut out
+  Mesh water_;  ///< with the void fraction, too
   Boundary boundary_;
   Staggering at_u_, at_v_, at_c_;
   Workspace work_;

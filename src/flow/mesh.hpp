@@ -45,4 +45,10 @@ std::vector<double> stretched_faces(double length, double h, double growth, doub
 /// The grid of the case with its pipe cut out.
 Mesh make_mesh(const MeshParams& grid, const PipeParams& pipe);
 
+/// The mesh with every opening and volume times the share of it that holds water: voidage at cell centres [-], 0 <
+/// voidage <= 1, mean of both cells on faces.  All operators on this mesh are those of the volume-averaged equations,
+///   d(voidage)/dt + div(voidage u) = 0,   voidage du/dt + ... = - voidage grad p/rho + div(voidage stress) + ...
+/// Throws Fault (invalid case) for a value out of range.
+Mesh fill_with_voids(const Mesh& mesh, const base::Field& voidage);
+
 }  // namespace livebed::flow

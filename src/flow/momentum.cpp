@@ -13,6 +13,8 @@ using base::vector_loop;
 Workspace::Workspace(const Mesh& m)
     : face_x(m.aperture_x),
       face_y(m.aperture_y),
+      cut_x(face_x),
+      cut_y(face_y),
       handed_u(hand_on(m, true)),
       handed_v(hand_on(m, false)),
       wall_u(share_wall(m, true)),
@@ -29,6 +31,7 @@ Workspace::Workspace(const Mesh& m)
       c_boundary = f;
   for (double dx : m.dx_) per_dx.push_back(1.0 / dx);
   for (double h : m.dx_face_) per_dx_face.push_back(h > 0 ? 1.0 / h : 0.0);
+  nothing.assign(m.nx, 0.0);
   floor_c.assign(m.nx, 0.0);
   top_c.assign(m.nx, 0.0);
   walls_u_.front() = walls_u_.back() = 1;
@@ -49,6 +52,16 @@ void Workspace::own_rows(int top) {
   };
   factor_u = response_u = with(walls_u_);
   factor_v = response_v = with(walls_v_);
+}
+
+void add_storage(const Staggering& at, const Workspace& w, int j, const double* c, double* convection) {
+  if (w.storage.nx() == 0) return;
+  const double *before = w.storage.row(j - at.shift_y) - at.shift_x, *here = w.storage.row(j);
+  const double *per_inertia = at.per_inertia.row(j), *per_width = at.per_width.data() + 2;
+  const double per_height = at.per_height[j + 2];
+  vector_loop(at.i0, at.i1, [&](int i) {
+    convection[i] -= c[i] * 0.5 * (before[i] + here[i]) * per_width[i] * per_height * per_inertia[i];
+  });
 }
 
 Carrier centred_carrier(const State& s, double dt) {
@@ -187,6 +200,7 @@ void MomentumRows<Scheme>::next(double* d, double* kx) {
   for (const int ready = hands_on_ ? std::min(j + 1, last_) : j; converted_ <= ready; ++converted_)
     convect_.next(convection_[converted_ % 4]);
   if (hands_on_) hand_on(j);
+  add_storage(at, w_, j, c_.value.row(j), convection_[j % 4]);
   fill_exchange_x(j, kx);
   fill_exchange_y(j + 1, exchange_y_[(j + 1) % 2]);
 
@@ -202,7 +216,7 @@ void MomentumRows<Scheme>::next(double* d, double* kx) {
   // flow through the sliver instead of slowing it.
   if (c_.is_u) {
     const double *v = carrier_.v(j), *v_above = carrier_.v(j + 1);
-    const double *face = w_.face_y.row(j), *face_above = w_.face_y.row(j + 1);
+    const double *face = w_.cut_y.row(j), *face_above = w_.cut_y.row(j + 1);
     const double h = per_height * at.hy[j + 2], h_above = per_height * at.hy[j + 3];
     vector_loop(at.i0, at.i1, [&](int i) {
       const double stress = face_above[i - 1] * face_above[i] * ky_above[i] * h_above * (v_above[i] - v_above[i - 1]) -
@@ -211,7 +225,7 @@ void MomentumRows<Scheme>::next(double* d, double* kx) {
     });
   } else {
     const double *v = carrier_.u(j), *v_below = carrier_.u(j - 1), *hx = at.hx.data() + 2;
-    const double *face = w_.face_x.row(j), *face_below = w_.face_x.row(j - 1);
+    const double *face = w_.cut_x.row(j), *face_below = w_.cut_x.row(j - 1);
     vector_loop(at.i0, at.i1, [&](int i) {
       const double stress = face[i + 1] * face_below[i + 1] * kx[i + 1] * hx[i + 1] * (v[i + 1] - v_below[i + 1]) -
                             face[i] * face_below[i] * kx[i] * hx[i] * (v[i] - v_below[i]);

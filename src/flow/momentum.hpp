@@ -7,7 +7,10 @@ namespace livebed::flow {
 
 /// Fields that one step needs besides the state; allocated once.
 struct Workspace {
-  base::SharedRows face_x, face_y;          ///< openings of the cell faces [-]
+  base::SharedRows face_x, face_y;          ///< openings of the cell faces, times void fraction [-]
+  base::SharedRows cut_x, cut_y;            ///< what the pipe leaves open of them [-]
+  base::Field storage;                      ///< volume x d(voidage)/dt of the cells [m2/s]; empty when it is 0
+  std::vector<double> nothing;              ///< a row of zeros
   std::vector<double> per_dx, per_dx_face;  ///< 1 / widths and distances of cells [1/m], two ghosts in front
   std::vector<HandedOn> handed_u, handed_v;
   std::vector<WallPart> wall_u, wall_v;     ///< the pipe as u and v meet it
@@ -33,6 +36,14 @@ private:
   std::vector<char> walls_u_, walls_v_;
   int nx_, owned_ = 0;
 };
+
+/// convection[i] += what the change of void fraction adds to the rate of a quantity c: with it, - (div(voidage u c) +
+/// c d(voidage)/dt)/voidage, the quantity does not change where it is uniform.
+void add_storage(const Staggering& at, const Workspace& w, int j, const double* c, double* convection);
+
+/// convection[i] += what the change of void fraction adds to the rate of a quantity c: with it, - (div(voidage u c) +
+/// c d(voidage)/dt)/voidage, the quantity does not change where it is uniform.
+void add_storage(const Staggering& at, const Workspace& w, int j, const double* c, double* convection);
 
 /// The velocity that carries all quantities through the step to come: u + dt/(2 dt_old) (u - u_old), centred in time.
 /// Both levels are free of divergence, so is their blend.  dt = 0: u as it is.

@@ -13,7 +13,6 @@ namespace {
 
 constexpr int widest_block = 256;  // columns, so that what a line solve touches stays in the second cache
 constexpr int cells_worth_threads = 8000;
-constexpr float pivot_least = 1e-5f;  // of the diagonal: below it a line floats free (pure Neumann) and keeps 0
 
 /// Calls pass(m0, m1) over blocks of columns, on all threads when there is work for them.  The blocks depend on the
 /// grid alone, not on the threads, and with them every rounding.
@@ -89,28 +88,34 @@ void Multigrid::solve_C(Level& l, bool coupled) {
 }
 
 void Multigrid::factor(Level& l) {
-  const auto one = [&](Columns& pivot, Columns& slope, const Columns& north, const Columns& extra, const Columns& west,
-                       const Columns& east, int east_shift) {
+  // A pivot is d = north + excess, where the excess is what the line up to here holds beyond its vertical couplings.
+  // Passed on from row to row, excess = west + east + extra + south x excess_below / d_below, it is a sum of positive
+  // numbers: in long lines of flat cells, where it is tiny beside d, a difference would lose it.
+  const auto one = [&](Columns& pivot, Columns& slope, Columns& passed, const Columns& north, const Columns& extra,
+                       const Columns& west, const Columns& east, int east_shift) {
     over_blocks(pivot.nm, l.ny, [&](int m0, int m1) {
       for (int j = 0; j < l.ny; ++j) {
         const int below = std::max(j - 1, 0);
         const float has_south = j > 0 ? 1.f : 0.f;
-        const float *south = north.row(below), *slope_below = slope.row(below), *up = north.row(j), *ex = extra.row(j);
+        const float *south = north.row(below), *passed_below = passed.row(below), *up = north.row(j),
+                    *ex = extra.row(j);
         const float *w = west.row(j), *e = east.row(j) + east_shift;
-        float *p = pivot.row(j), *s = slope.row(j);
+        float *p = pivot.row(j), *s = slope.row(j), *pass = passed.row(j);
         vector_loop(m0, m1, [&](int m) {
           const float from_south = has_south * south[m];
-          const float diagonal = w[m] + e[m] + from_south + up[m] + ex[m];
-          const float d = diagonal - from_south * slope_below[m];
-          const float floating = d > pivot_least * diagonal ? 1.f / d : 0.f;
-          p[m] = diagonal == 0.f ? 1.f : floating;
+          const float excess = w[m] + e[m] + ex[m] + (from_south > 0.f ? from_south * passed_below[m] : 0.f);
+          const float d = up[m] + excess;
+          // A solid cell is a row of its own; a line that floats free (pure Neumann) keeps 0.
+          const float alone = from_south > 0.f ? 0.f : 1.f;
+          p[m] = d > 0.f ? 1.f / d : alone;
           s[m] = up[m] * p[m];
+          pass[m] = d > 0.f ? excess * p[m] : 0.f;
         });
       }
     });
   };
-  one(l.pivot.F, l.slope.F, l.a.north.F, l.a.extra.F, l.a.west, l.a.east, 0);
-  one(l.pivot.C, l.slope.C, l.a.north.C, l.a.extra.C, l.a.east, l.a.west, 1);
+  one(l.pivot.F, l.slope.F, l.x.F, l.a.north.F, l.a.extra.F, l.a.west, l.a.east, 0);
+  one(l.pivot.C, l.slope.C, l.x.C, l.a.north.C, l.a.extra.C, l.a.east, l.a.west, 1);
 }
 
 void Multigrid::coarsen(const Level& fine, Level& coarse) {

@@ -61,7 +61,10 @@ void draw_closer(const Mesh& m, bool west, base::Field& open) {
     for (int i = 1; i < m.nx; ++i) {
       const int a = west ? i : i - 1, b = west ? j - 1 : j;
       const double here = aperture(i, j), there = aperture(a, b);
-      if (here <= 0 || there <= 0 || (here >= 1 && there >= 1)) continue;
+      const int sx = west ? 1 : 0, sy = 1 - sx;  // to the cell on the other side of the face
+      const bool cut = m.wall_length(i, j) > 0 || m.wall_length(i - sx, j - sy) > 0 || m.wall_length(a, b) > 0 ||
+                       m.wall_length(a - sx, b - sy) > 0;
+      if (here <= 0 || there <= 0 || !cut) continue;
       const double apart = open_part(m, west, i, j).middle - open_part(m, west, a, b).middle;
       const double whole = west ? m.dy_face(j) : m.dx_face(i);
       open(i, j) *= whole / std::max(apart, 0.5 * whole);

@@ -13,13 +13,14 @@ using base::vector_loop;
 template <class Scheme>
 ScalarRows<Scheme>::ScalarRows(const Mesh& mesh, const Params& params, const Turbulence& turbulence,
                                const Staggering& at, bool of_k, const State& s, CarrierRows& carrier, double lead,
-                               Workspace& w, RowScratch::Rows& scratch)
+                               const Workspace& w, RowScratch::Rows& scratch)
     : m_(mesh),
       params_(params),
       turbulence_(turbulence),
       at_(at),
       of_k_(of_k),
       s_(s),
+      w_(w),
       convect_(w.face_x, w.face_y, carrier,
                {at, of_k ? s.k : turbulence.second(s), of_k ? s.k_old : turbulence.second_old(s),
                 of_k ? s.convection_k : s.convection_e, s.step > 0 ? 1.0 / s.step : 0.0, lead, true, turbulence.nut(),
@@ -48,6 +49,7 @@ void ScalarRows<Scheme>::next(double* rate, double* convection, double* gain, do
   turbulence_.fill_exchange_x(m_, params_, at_, of_k_, j, kx);
   fill_y(j + 1);
   const Field& field = of_k_ ? s_.k : turbulence_.second(s_);
+  add_storage(at_, w_, j, field.row(j), convection);
   const double *c = field.row(j), *below = field.row(j - 1), *above = field.row(j + 1);
   const double *ky = exchange_y_[j % 2], *ky_above = exchange_y_[(j + 1) % 2], *per_inertia = at_.per_inertia.row(j);
   const double *per_width = at_.per_width.data() + 2, per_height = at_.per_height[j + 2];

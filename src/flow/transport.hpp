@@ -8,7 +8,7 @@ template <class Scheme>
 class ScalarRows {
 public:
   ScalarRows(const Mesh& mesh, const Params& params, const Turbulence& turbulence, const Staggering& at, bool of_k,
-             const State& s, CarrierRows& carrier, double lead, Workspace& w, RowScratch::Rows& scratch);
+             const State& s, CarrierRows& carrier, double lead, const Workspace& w, RowScratch::Rows& scratch);
   void start(int j);
   /// The next row: rate <- all of dc/dt now [c/s]; convection, gain <- those parts of it; decay <- [1/s]; kx <-
   /// exchange across west faces [m/s].
@@ -23,6 +23,7 @@ private:
   const Staggering& at_;
   bool of_k_;
   const State& s_;
+  const Workspace& w_;
   ConvectionRows<Scheme> convect_;
   int j_ = 0;
   std::array<double*, 2> exchange_y_{};

@@ -226,6 +226,10 @@ void Turbulence::fill_rates(const Mesh& m, bool of_k, int j, const State& s, dou
           fill([&](const Local& a) { return law.e(a); });
       },
       law_);
+  if (const Field* source = of_k ? source_k_ : source_e_) {
+    const double* given = source->row(j);
+    vector_loop(0, m.nx, [&](int i) { gain[i] += given[i]; });
+  }
   if (!of_k || !with_omega()) return;
   const auto before = [](const WallPlace& a, int row) { return a.j < row; };
   for (auto a = std::lower_bound(walls_.begin(), walls_.end(), j, before); a != walls_.end() && a->j == j; ++a)

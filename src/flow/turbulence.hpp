@@ -23,6 +23,10 @@ public:
   /// nut <- k, epsilon and the velocity, of a state that no step has made.
   void start(const Mesh& mesh, const Boundary& boundary, const Params& params, State& s, const Workspace& w);
 
+  /// Adds given sources to the equations of k [m2/s3] and of the second quantity [its unit/s]; null for none.  The
+  /// fields must live as long as they are used.
+  void set_sources(const base::Field* of_k, const base::Field* of_e) { source_k_ = of_k, source_e_ = of_e; }
+
   bool with_omega() const { return std::holds_alternative<KOmegaSst>(law_); }
   const base::Field& second(const State& s) const { return with_omega() ? omega_ : s.epsilon; }
   const base::Field& second_old(const State& s) const { return with_omega() ? omega_old_ : s.epsilon_old; }
@@ -84,6 +88,7 @@ private:
   base::Field strain_;                             ///< S^2 [1/s2]
   base::Field nut_;                                ///< centred in the step to come [m2/s]
   base::Field omega_, omega_old_, cross_, blend_;  ///< of omega closures
+  const base::Field *source_k_ = nullptr, *source_e_ = nullptr;
   double ahead_ = 0;
 };
 

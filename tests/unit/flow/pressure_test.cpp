@@ -93,6 +93,23 @@ INSTANTIATE_TEST_SUITE_P(meshes, PressureShapes,
                                            Shape{"large", 1.5, 0.175, 0.0025, 0.001, 1, 0.05, true}),
                          [](const auto& shape) { return shape.param.name; });
 
+/// Cells a hundred times as wide as high: stiff lines, and smooth solutions that single precision cannot hold.
+TEST(pressure, solves_on_flat_cells) {
+  for (bool outlet : {true, false})
+    for (double cell_y : {5e-4, 5e-5}) {
+      MeshParams grid;
+      grid.length = 4, grid.height = 100 * cell_y, grid.cell_x = 0.05, grid.cell_y = cell_y;
+      System s = make_system(grid, PipeParams{.present = false}, outlet);
+      PressureSolver solver(s.mesh.nx, s.mesh.ny);
+      solver.set_coefficients(s.c_x, s.c_y, s.c_boundary);
+      base::Field p(s.mesh.nx, s.mesh.ny);
+      const SolveReport report = solver.solve(p, s.b, 1e-6, 60);
+      EXPECT_LE(report.iterations, 16) << outlet << " " << cell_y;
+      EXPECT_LE(report.relative(), 1e-6) << outlet << " " << cell_y;
+      EXPECT_GT(report.iterations, 0);
+    }
+}
+
 TEST(pressure, same_bits_for_any_number_of_threads) {
   MeshParams grid;
   grid.length = 1.5, grid.height = 0.35, grid.cell_x = 0.0025, grid.cell_y = 0.0025;
