@@ -40,6 +40,8 @@ Coupler::Coupler(const Params& params, const flow::Mesh& mesh, const flow::Stagg
       drag_(make_drag(params)),
       nx_(mesh.nx),
       ny_(mesh.ny),
+      y_(mesh.y.begin() + 1, mesh.y.end()),
+      reach_(params.kernel * grain_diameter),
       slab_(grain_diameter),
       density_(density),
       viscosity_(viscosity),
@@ -60,6 +62,13 @@ void Coupler::locate(const grains::State& g) {
   located_ = true;
 }
 
+int Coupler::rows_with_grains(const grains::State& g) const {
+  if (g.count() == 0) return 0;
+  const double top = *std::max_element(g.y.begin(), g.y.begin() + g.count()) + reach_;
+  // A volume of v reaches half a row further down than its row.
+  return std::min(ny_, static_cast<int>(std::lower_bound(y_.begin(), y_.end(), top) - y_.begin()) + 2);
+}
+
 void Coupler::load_flow(grains::State& g, flow::State& s, double dt, bool held) {
   if (params_.mode == Mode::none) return;
   if (!located_) locate(g);
@@ -77,7 +86,7 @@ void Coupler::load_flow(grains::State& g, flow::State& s, double dt, bool held) 
   if (params_.mode == Mode::one_way) return;
 
   flow::Load& load = s.load;
-  load.top = ny_;
+  load.top = rows_with_grains(g);
   for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v}) f->fill(0.0);
   const bool implicit = held || params_.exchange == Exchange::implicit;
   if (implicit) {
@@ -89,7 +98,7 @@ void Coupler::load_flow(grains::State& g, flow::State& s, double dt, bool held) 
     });
   }
   const auto per_volume = [&](const Field& volume, const Field& owed, Field& beta, Field& force) {
-    for_each_item(0, ny_, [&](int j) {
+    for_each_item(0, load.top, [&](int j) {
       const double *v = volume.row(j), *o = owed.row(j);
       double *b = beta.row(j), *f = force.row(j);
       vector_loop(0, nx_, [&](int i) {

@@ -53,10 +53,14 @@ public:
 
 private:
   void locate(const grains::State& g);
+  /// Rows of the grid, from the floor, that the kernel of any grain touches.
+  int rows_with_grains(const grains::State& g) const;
 
   Params params_;
   DragLaw drag_;
   int nx_ = 0, ny_ = 0;
+  std::vector<double> y_;  ///< of the rows' upper edges [m]
+  double reach_ = 0;       ///< half-width of the kernel [m]
   double slab_ = 0, density_ = 0, viscosity_ = 0;
   base::Field volume_u_, volume_v_, volume_c_;  ///< of the control volumes [m3], slab included
   Transfer at_u_, at_v_, at_c_;
