@@ -101,7 +101,8 @@ public:
   Structured& operator=(const Structured&) = delete;
 
   int solve(double tolerance, Field& p) override {
-    HYPRE_StructVectorSetConstantValues(x_, 0.0);
+    std::vector<double> list = listed(s_, [&](int i, int j) { return p(i, j); });
+    HYPRE_StructVectorSetBoxValues(x_, lower_, upper_, list.data());
     HYPRE_StructPCGSetTol(gradients_, tolerance);
     HYPRE_StructPCGSolve(gradients_, a_, b_, x_);
     HYPRE_Int iterations = 0;
@@ -109,7 +110,6 @@ public:
     HYPRE_StructPCGGetNumIterations(gradients_, &iterations);
     HYPRE_StructPCGGetFinalRelativeResidualNorm(gradients_, &relative);
     check(cycle_ == Cycle::pfmg ? "PFMG-CG" : "SMG-CG", iterations, relative, tolerance);
-    std::vector<double> list(static_cast<std::size_t>(s_.nx) * s_.ny);
     HYPRE_StructVectorGetBoxValues(x_, lower_, upper_, list.data());
     spread(s_, list, p);
     return iterations;
@@ -184,7 +184,8 @@ public:
   Boomer& operator=(const Boomer&) = delete;
 
   int solve(double tolerance, Field& p) override {
-    HYPRE_ParVectorSetConstantValues(solution_, 0.0);
+    std::vector<double> list = listed(s_, [&](int i, int j) { return p(i, j); });
+    HYPRE_IJVectorSetValues(x_, static_cast<HYPRE_Int>(list.size()), nullptr, list.data());
     HYPRE_PCGSetTol(gradients_, tolerance);
     HYPRE_ParCSRPCGSolve(gradients_, matrix_, right_, solution_);
     HYPRE_Int iterations = 0;
@@ -192,7 +193,6 @@ public:
     HYPRE_PCGGetNumIterations(gradients_, &iterations);
     HYPRE_PCGGetFinalRelativeResidualNorm(gradients_, &relative);
     check("BoomerAMG-CG", iterations, relative, tolerance);
-    std::vector<double> list(static_cast<std::size_t>(s_.nx) * s_.ny);
     HYPRE_IJVectorGetValues(x_, static_cast<HYPRE_Int>(list.size()), nullptr, list.data());
     spread(s_, list, p);
     return iterations;

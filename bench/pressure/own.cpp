@@ -11,7 +11,6 @@ public:
     solver_.set_coefficients(system.c_x, system.c_y, system.c_boundary);
   }
   int solve(double tolerance, base::Field& p) override {
-    p.fill(0.0);
     return solver_.solve(p, system_.b, tolerance, most_iterations).iterations;
   }
 

@@ -68,21 +68,18 @@ public:
   }
 
   int solve(double tolerance, Field& p) override {
-    p.fill(0.0);
-    r_ = s_.b;
     d_.fill(0.0);
-    const double target = tolerance * std::sqrt(dot(r_, r_));
+    multiply(p);
+    each([&](int i, int j) { r_(i, j) = s_.b(i, j) - q_(i, j); });
+    const double target = tolerance * std::sqrt(dot(s_.b, s_.b));
+    if (std::sqrt(dot(r_, r_)) <= target) return 0;
     double last = 1;
     for (int n = 1; n <= most_iterations; ++n) {
       precondition();
       const double now = dot(r_, z_), beta = n > 1 ? now / last : 0.0;
       last = now;
       each([&](int i, int j) { d_(i, j) = z_(i, j) + beta * d_(i, j); });
-      each([&](int i, int j) {
-        q_(i, j) =
-            open_(i, j) * (diagonal_(i, j) * d_(i, j) - s_.c_x(i, j) * d_(i - 1, j) - s_.c_x(i + 1, j) * d_(i + 1, j) -
-                           s_.c_y(i, j) * d_(i, j - 1) - s_.c_y(i, j + 1) * d_(i, j + 1));
-      });
+      multiply(d_);
       const double alpha = now / dot(d_, q_);
       each([&](int i, int j) { p(i, j) += alpha * d_(i, j), r_(i, j) -= alpha * q_(i, j); });
       if (std::sqrt(dot(r_, r_)) <= target) return n;
@@ -103,6 +100,14 @@ private:
       sum += base::vector_sum(0, nx_, [&](int i) { return x[i] * y[i]; });
     }
     return sum;
+  }
+  /// q <- A a, in the open cells.
+  void multiply(const Field& a) {
+    each([&](int i, int j) {
+      q_(i, j) =
+          open_(i, j) * (diagonal_(i, j) * a(i, j) - s_.c_x(i, j) * a(i - 1, j) - s_.c_x(i + 1, j) * a(i + 1, j) -
+                         s_.c_y(i, j) * a(i, j - 1) - s_.c_y(i, j + 1) * a(i, j + 1));
+    });
   }
   /// z <- the separable operator's inverse times r, in the open cells.
   void precondition() {

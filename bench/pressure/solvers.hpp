@@ -12,8 +12,8 @@ namespace livebed::bench {
 class LinearSolver {
 public:
   virtual ~LinearSolver() = default;
-  /// p <- solution from the first guess 0, until the residual's norm is below tolerance times that of b.  Returns the
-  /// iterations.
+  /// p holds the first guess and receives the solution, whose residual's norm is below tolerance times that of b.
+  /// Returns the iterations.
   virtual int solve(double tolerance, base::Field& p) = 0;
 };
 

@@ -84,13 +84,13 @@ double water_fraction(double x, double y, double bed) {
   return 0.4 + 0.2 * static_cast<double>(hash >> 8) / (1 << 24);
 }
 
-/// The system of a grid, b still 0.
+/// The system of a grid, b and guess still 0.
 System without_source(const std::string& name, const flow::Mesh& m, bool grains) {
   const int nx = m.nx, ny = m.ny;
   System s;
   s.name = name, s.nx = nx, s.ny = ny;
   s.x = m.x, s.y = m.y;
-  s.c_x = s.c_y = s.c_boundary = s.b = Field(nx, ny);
+  s.c_x = s.c_y = s.c_boundary = s.b = s.guess = Field(nx, ny);
   Field alpha(nx, ny, 2, 1.0);
   if (grains)
     for (int j = 0; j < ny; ++j)
@@ -146,17 +146,19 @@ System make_system(const Choice& choice) {
   flow::map_flow(coarse, fine);
   // The first steps take the divergence away that the mapping leaves.
   for (int k = 0; k < 6; ++k) fine.advance(fine.step_limit());
-  const Field before = fine.state.p;
-  fine.advance(fine.step_limit());
+  const Field last = fine.state.p_change;
+  const double last_step = fine.state.step, step = fine.step_limit();
+  fine.advance(step);
 
   System s = without_source(choice.name, fine.mesh(), choice.grains);
-  const auto increment = [&](int i, int j) { return fine.state.p(i, j) - before(i, j); };
+  const Field& change = fine.state.p_change;
   for (int j = 0; j < s.ny; ++j)
     for (int i = 0; i < s.nx; ++i) {
       if (s.diagonal(i, j) == 0) continue;
-      const auto flux = [&](double c, int a, int b) { return c > 0 ? c * (increment(i, j) - increment(a, b)) : 0.0; };
+      const auto flux = [&](double c, int a, int b) { return c > 0 ? c * (change(i, j) - change(a, b)) : 0.0; };
       s.b(i, j) = flux(s.c_x(i, j), i - 1, j) + flux(s.c_x(i + 1, j), i + 1, j) + flux(s.c_y(i, j), i, j - 1) +
-                  flux(s.c_y(i, j + 1), i, j + 1) + s.c_boundary(i, j) * increment(i, j);
+                  flux(s.c_y(i, j + 1), i, j + 1) + s.c_boundary(i, j) * change(i, j);
+      s.guess(i, j) = last(i, j) * step / last_step;
     }
   return s;
 }

@@ -13,6 +13,7 @@ struct System {
   int nx = 0, ny = 0;
   double aspect = 0;  ///< largest ratio of a cell's sides [-]
   base::Field c_x, c_y, c_boundary, b;
+  base::Field guess;                    ///< what the step starts the solve from
   std::vector<double> x, y;             ///< faces of the grid [m]
   std::vector<double> openness;         ///< mean coefficient factor of a row: 1 without grains [-]
   std::vector<double> openness_across;  ///< of the faces below a row
@@ -33,8 +34,8 @@ struct Choice {
   bool grains = false;
 };
 
-/// b is what one step of the flow asks for: A times the pressure increment of the step, the flow having been developed
-/// on a coarse grid.
+/// b is what one step of the flow asks for: A times the change of pressure in the step, the flow having been developed
+/// on a coarse grid; guess the change in the step before, as the flow takes it.
 System make_system(const Choice& choice);
 
 /// 80 x 100 cells of 50 mm x 0.5 mm, no pipe: aspect ratio 100; b from a current that is not free of divergence.
