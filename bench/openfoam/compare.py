@@ -28,14 +28,14 @@ ROWS_94 = "OpenFOAM 52k"
 ROWS_186 = "OpenFOAM 20k, pipe 0.93 mm"
 HIGH_RE = "OpenFOAM 9k, nutk, Re 190000, pipe 0.23 mm"
 
-# name: (what runs, with what it is compared, options).  Means over ten shedding periods or more, five on 52k;
+# name: (what runs, with what it is compared, options).  Means over ten shedding periods or more, three on 52k;
 # OpenFOAM's finer meshes start from the coarser one's flow.  nutU is Livebed's smooth law: log law of the speed,
 # viscous below where they meet; nutk takes u* from k.  "pipe 0.93 mm": height of the cells on the pipe, 1.86 mm
 # otherwise; 1.86 mm on the bed in all.
 RUNS = {
     "OpenFOAM 9k": ("openfoam", ROWS_94, dict(level="coarse", end=20, start=8, wall="nutU")),
     "OpenFOAM 20k": ("openfoam", ROWS_94, dict(level="medium", end=13.5, start=2.5, wall="nutU", source="OpenFOAM 9k")),
-    "OpenFOAM 52k": ("openfoam", ROWS_94, dict(level="fine", end=6.6, start=1.6, wall="nutU", source="OpenFOAM 20k")),
+    "OpenFOAM 52k": ("openfoam", ROWS_94, dict(level="fine", end=4.2, start=1.2, wall="nutU", source="OpenFOAM 20k")),
     "Livebed 540 x 94": ("livebed", ROWS_94, dict(mesh=EQUAL, end=20, start=8)),
     "OpenFOAM 9k, pipe 0.93 mm":
         ("openfoam", ROWS_186,
