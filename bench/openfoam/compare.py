@@ -103,4 +103,5 @@ def main():
               f" {flow.rms_lift():.3f} | {shear:.3f} | {place:.2f} | {flow.far_shear():.4f} | {away} |", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

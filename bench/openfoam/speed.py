@@ -150,4 +150,5 @@ def main():
     print(f"\nLivebed of commit {commit}.")
 
 
-main()
+if __name__ == "__main__":
+    main()
