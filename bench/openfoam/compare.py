@@ -24,7 +24,7 @@ HIGH = 190000.0
 
 # Flows with which the others are compared: cells on the pipe as high as the rows of 540 x 94 cells; as those of
 # 1080 x 186; at a Reynolds number where wall functions hold.
-ROWS_94 = "OpenFOAM 52k"
+ROWS_94 = "OpenFOAM 20k"
 ROWS_186 = "OpenFOAM 20k, pipe 0.93 mm"
 HIGH_RE = "OpenFOAM 9k, nutk, Re 190000, pipe 0.23 mm"
 
