@@ -108,8 +108,9 @@ std::vector<Drawn> each_closure(Runs& runs, double gap) {
   return drawn;
 }
 
-/// e/D 0.3 and 0 on the paper's grid beside the usual one.
-Result fine_grid(const std::vector<Model>& which, const std::string& name, const Tell& tell) {
+/// Runs on the paper's grid beside those on the usual one; name: of the figures.
+Result fine_grid(const std::vector<Model>& which, const std::vector<double>& at_gaps, const std::string& name,
+                 const Tell& tell) {
   Result result;
   Runs runs(tell);
   const auto fine = [](Closure closure, double gap) {
@@ -124,7 +125,7 @@ Result fine_grid(const std::vector<Model>& which, const std::string& name, const
     row.commit = runs(s).commit;
     result.rows.push_back(row);
   };
-  for (double gap : {0.3, 0.0}) {
+  for (double gap : at_gaps) {
     std::vector<Drawn> both;
     std::vector<ShearPanel> shear;
     for (const Model& m : which) {
@@ -235,8 +236,12 @@ Result oner_depth(const Tell& tell) {
   return result;
 }
 
-Result oner_fine(const Tell& tell) { return fine_grid({models[0]}, "oner_fine", tell); }
+Result oner_fine(const Tell& tell) { return fine_grid({models[0]}, {0.3}, "oner_fine", tell); }
 
-Result oner_fine_closures(const Tell& tell) { return fine_grid({models[1], models[2]}, "oner_fine_closures", tell); }
+Result oner_fine_bed(const Tell& tell) { return fine_grid({models[0]}, {0.0}, "oner_fine_bed", tell); }
+
+Result oner_fine_closures(const Tell& tell) {
+  return fine_grid({models[1], models[2]}, {0.3, 0.0}, "oner_fine_closures", tell);
+}
 
 }  // namespace livebed::validate

@@ -12,8 +12,10 @@ Result oner(const Tell& tell);
 /// What sets the Strouhal number: the depth of the experiment, 12 D, and single changes of profile, scheme and grid.
 Result oner_depth(const Tell& tell);
 
-/// The paper's grid, 1500 x 260: e/D 0.3 and 0 beside the usual grid, with the paper's closure and with the others.
+/// The paper's grid, 1500 x 260, beside the usual one: the paper's closure at e/D 0.3, at 0, and the other closures at
+/// both.
 Result oner_fine(const Tell& tell);
+Result oner_fine_bed(const Tell& tell);
 Result oner_fine_closures(const Tell& tell);
 
 }  // namespace livebed::validate

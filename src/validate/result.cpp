@@ -37,8 +37,9 @@ const std::vector<Case>& cases() {
        step},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},
       {"oner-depth", "what sets its Strouhal number: depth, approach profile, scheme, grid", oner_depth},
-      {"oner-fine", "the same on the paper's 1500 x 260 cells: k-epsilon, e/D 0.3 and 0", oner_fine},
-      {"oner-fine-closures", "the same with the realizable k-epsilon and k-omega SST", oner_fine_closures},
+      {"oner-fine", "the same on the paper's 1500 x 260 cells: k-epsilon, e/D 0.3", oner_fine},
+      {"oner-fine-bed", "the same, e/D 0", oner_fine_bed},
+      {"oner-fine-closures", "the same, realizable k-epsilon and k-omega SST, e/D 0.3 and 0", oner_fine_closures},
   };
   return all;
 }
