@@ -116,7 +116,7 @@ Result fine_grid(const std::vector<Model>& which, const std::vector<double>& at_
   const auto fine = [](Closure closure, double gap) {
     PipeSetup s = setup(closure, gap);
     s.nx = 1500, s.ny = 260;
-    s.record = gap > 0 ? 80 : 40;  // at e/D 0 the flow is steady
+    s.record = gap > 0 ? 80 : 20;  // at e/D 0 the flow is steady
     return s;
   };
   const auto change = [&](const std::string& what, const PipeSetup& s, double usual, double refined) {
