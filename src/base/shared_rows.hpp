@@ -29,6 +29,8 @@ public:
     rows_ = Field(f.nx(), static_cast<int>(kept.size()), ghosts);
     for (std::size_t k = 0; k < kept.size(); ++k)
       std::copy(f.row(kept[k]) + ga, f.row(kept[k]) + gb, rows_.row(static_cast<int>(k)) + ga);
+    for (int row : kept)
+      one_.push_back(std::all_of(f.row(row) + ga, f.row(row) + gb, [](double v) { return v == 1.0; }));
   }
   /// `value` all over, but with rows of their own, to be written at any time, where own[j] is set.
   SharedRows(int nx, const std::vector<char>& own, double value) : SharedRows(static_cast<int>(own.size())) {
@@ -36,10 +38,14 @@ public:
     for (std::size_t j = 0; j < own.size(); ++j)
       if (own[j]) index_[j + ghosts] = count++;
     rows_ = Field(nx, count, ghosts, value);
+    one_.assign(count, 0);
   }
 
   const double* row(int j) const { return rows_.row(index_[j + ghosts]); }
   double operator()(int i, int j) const { return row(j)[i]; }
+
+  /// Whether row j is 1 all over, so that a factor may be left out.
+  bool is_one(int j) const { return one_[index_[j + ghosts]] != 0; }
 
   /// Row j to be written; only rows that were made with their own.
   bool owns(int j) const { return index_[j + ghosts] > 0; }
@@ -49,7 +55,8 @@ private:
   static constexpr int ghosts = 2;
   explicit SharedRows(int ny) : index_(static_cast<std::size_t>(ny) + 2 * ghosts, 0) {}
   Field rows_;
-  std::vector<int> index_;
+  std::vector<int> index_;  ///< of the stored row that stands for each row, ghosts first
+  std::vector<char> one_;   ///< of each stored row
 };
 
 }  // namespace livebed::base

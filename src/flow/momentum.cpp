@@ -131,13 +131,13 @@ MomentumRows<Scheme>::MomentumRows(const Mesh& mesh, const Boundary& boundary, c
                 params.viscosity},
                scratch),
       dt_(dt) {
-  for (double*& row : convection_) row = scratch.take();
+  for (double*& row : scratch_rows_) row = scratch.take();
   for (double*& row : exchange_y_) row = scratch.take();
   outer_ = scratch.take();
 }
 
 template <class Scheme>
-void MomentumRows<Scheme>::start(int ja, int jb) {
+void MomentumRows<Scheme>::start(int ja, int jb, Field* convection) {
   const Staggering& at = c_.at;
   hands_on_ =
       std::any_of(c_.handed.begin(), c_.handed.end(), [&](const HandedOn& h) { return h.to_j >= ja && h.to_j < jb; });
@@ -148,6 +148,7 @@ void MomentumRows<Scheme>::start(int ja, int jb) {
   convect_.start(first);
   converted_ = first;
   j_ = ja;
+  kept_ = convection, kept_from_ = ja, kept_to_ = jb;
   fill_exchange_y(ja, exchange_y_[ja % 2]);
 }
 
@@ -197,8 +198,11 @@ template <class Scheme>
 void MomentumRows<Scheme>::next(double* d, double* kx) {
   const Staggering& at = c_.at;
   const int j = j_++;
-  for (const int ready = hands_on_ ? std::min(j + 1, last_) : j; converted_ <= ready; ++converted_)
+  for (const int ready = hands_on_ ? std::min(j + 1, last_) : j; converted_ <= ready; ++converted_) {
+    const bool keep = kept_ && converted_ >= kept_from_ && converted_ < kept_to_;
+    convection_[converted_ % 4] = keep ? kept_->row(converted_) : scratch_rows_[converted_ % 4];
     convect_.next(convection_[converted_ % 4]);
+  }
   if (hands_on_) hand_on(j);
   add_storage(at, w_, j, c_.value.row(j), convection_[j % 4]);
   fill_exchange_x(j, kx);
@@ -279,23 +283,26 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
     MomentumRows<Scheme> rows(m, b, params, s, centred_carrier(s, dt), dt, dt, w, c, scratch);
     std::array<double*, together> kx{}, slope{};
     for (int r = 0; r < together; ++r) kx[r] = scratch.take(), slope[r] = scratch.take();
+    const bool half = spreads_little(at, s.nut, params.viscosity, dt, ja, jb);
     const auto keep_y = [&](int j) {
+      const double* exchange = rows.exchange_y(j);
       double* k = w.exchange_y.row(j);
-      std::copy_n(rows.exchange_y(j), m.nx, k);
-      keep_implicit_part(
-          at.i0, at.i1, dt, [per_h = at.per_hy[j + 2]](int) { return per_h; }, k);
+      const double factor = half ? 0.5 * dt : 1.0;
+      vector_loop(at.i0, at.i1, [&](int i) { k[i] = factor * exchange[i]; });
+      if (!half)
+        keep_implicit_part(
+            at.i0, at.i1, dt, false, [per_h = at.per_hy[j + 2]](int) { return per_h; }, k);
     };
-    rows.start(ja, jb);
+    rows.start(ja, jb, &w.convection);
     for (int j = ja; j < jb;) {
       std::array<RowSystem, together> systems;
       int count = 0;
       for (; j < jb && count < together; ++j, ++count) {
         double* d = w.change.row(j);
         rows.next(d, kx[count]);
-        std::copy_n(rows.convection(j) + at.i0, at.i1 - at.i0, w.convection.row(j) + at.i0);
         keep_y(j);
         keep_implicit_part(
-            at.i0, at.i1 + 1, dt, [&](int i) { return per_hx[i]; }, kx[count]);
+            at.i0, at.i1 + 1, dt, half, [&](int i) { return per_hx[i]; }, kx[count]);
         systems[count] = {c.factor.row(j), at.per_inertia.row(j), kx[count], d, slope[count]};
       }
       solve_rows(at, systems.data(), count);

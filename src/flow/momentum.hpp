@@ -74,8 +74,8 @@ public:
   MomentumRows(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s, const Carrier& carrier,
                double dt, double lead, Workspace& w, const Component& c, RowScratch::Rows& scratch);
 
-  /// Begins with row ja of the block [ja, jb).
-  void start(int ja, int jb);
+  /// Begins with row ja of the block [ja, jb).  convection: a field that receives that of the block's rows, or null.
+  void start(int ja, int jb, base::Field* convection);
   /// The next row j: d <- dt x acceleration, kx <- exchange across west faces (diffusivity x opening / distance) [m/s];
   /// factor <- 1 + dt x (drag + friction), response <- with drag alone where the row has its own; convection() and
   /// exchange_y(j), exchange_y(j + 1) are those of the row.
@@ -101,7 +101,9 @@ private:
   double dt_;
   int j_ = 0, last_ = 0, converted_ = 0;
   bool hands_on_ = false;
-  std::array<double*, 4> convection_{};
+  base::Field* kept_ = nullptr;
+  int kept_from_ = 0, kept_to_ = 0;
+  std::array<double*, 4> convection_{}, scratch_rows_{};
   std::array<double*, 2> exchange_y_{};
   double* outer_;
 };

@@ -195,12 +195,18 @@ private:
                  *after = at.from_west.data() + 2;
     const double share_a = at.share_y_before[j + 2], share_b = at.share_y[j + 2], dt = q_.dt, nu = q_.nu;
     double* west = west_;
-    base::vector_loop(at.i0, at.i1 + 1, [&](int i) {
-      const Stencil4 s{p[i - 2],      p[i - 1],  p[i],          p[i + 1],  hx[i],
-                       per_hx[i - 1], per_hx[i], per_hx[i + 1], before[i], after[i]};
-      west[i] = (share_a * ua[i] * open_a[i] + share_b * ub[i] * open_b[i]) *
-                Scheme::face(s, 0.5 * (ua[i] + ub[i]), dt, change[i - 1], change[i], nu + 0.5 * (nut[i - 1] + nut[i]));
-    });
+    const auto run = [&](auto flux) {
+      base::vector_loop(at.i0, at.i1 + 1, [&](int i) {
+        const Stencil4 s{p[i - 2],      p[i - 1],  p[i],          p[i + 1],  hx[i],
+                         per_hx[i - 1], per_hx[i], per_hx[i + 1], before[i], after[i]};
+        west[i] = flux(i) * Scheme::face(s, 0.5 * (ua[i] + ub[i]), dt, change[i - 1], change[i],
+                                         nu + 0.5 * (nut[i - 1] + nut[i]));
+      });
+    };
+    if (face_x_.is_one(j - sy) && face_x_.is_one(j))
+      run([&](int i) { return share_a * ua[i] + share_b * ub[i]; });
+    else
+      run([&](int i) { return share_a * ua[i] * open_a[i] + share_b * ub[i] * open_b[i]; });
   }
 
   void south_fluxes(int j, const double* change_below, const double* change, double* flux) {
@@ -213,12 +219,17 @@ private:
     const double *share_a = at.share_x_before.data() + 2, *share_b = at.share_x.data() + 2;
     const double h = at.hy[j + 2], per_mm = at.per_hy[j + 1], per_h = at.per_hy[j + 2], per_pp = at.per_hy[j + 3];
     const double before = at.to_south[j + 2], after = at.from_south[j + 2], dt = q_.dt, nu = q_.nu;
-    base::vector_loop(at.i0, at.i1, [&](int i) {
-      const Stencil4 s{mm[i], m[i], p[i], pp[i], h, per_mm, per_h, per_pp, before, after};
-      flux[i] =
-          (share_a[i] * va[i] * open_a[i] + share_b[i] * vb[i] * open_b[i]) *
-          Scheme::face(s, 0.5 * (va[i] + vb[i]), dt, change_below[i], change[i], nu + 0.5 * (nut_below[i] + nut[i]));
-    });
+    const auto run = [&](auto through) {
+      base::vector_loop(at.i0, at.i1, [&](int i) {
+        const Stencil4 s{mm[i], m[i], p[i], pp[i], h, per_mm, per_h, per_pp, before, after};
+        flux[i] = through(i) * Scheme::face(s, 0.5 * (va[i] + vb[i]), dt, change_below[i], change[i],
+                                            nu + 0.5 * (nut_below[i] + nut[i]));
+      });
+    };
+    if (face_y_.is_one(j - sy) && face_y_.is_one(j))
+      run([&](int i) { return share_a[i] * va[i] + share_b[i] * vb[i]; });
+    else
+      run([&](int i) { return share_a[i] * va[i] * open_a[i] + share_b[i] * vb[i] * open_b[i]; });
   }
 
   const base::SharedRows &face_x_, &face_y_;
@@ -243,13 +254,27 @@ void with_scheme(Convection scheme, Body&& body) {
 inline double implicit_share(double number) { return number <= 1.0 ? 0.5 : 1.0 - 0.5 / number; }
 
 /// k <- dt x implicit share x k for entries [i0, i1) of a row of exchange velocities, k = diffusivity x opening / h
-/// [m/s]; per_h(i) = 1/h [1/m].
+/// [m/s]; per_h(i) = 1/h [1/m].  half: the number is known to be at most 1 everywhere.
 template <class PerH>
-void keep_implicit_part(int i0, int i1, double dt, PerH per_h, double* k) {
-  if (base::vector_largest(i0, i1, 0.0, [&](int i) { return k[i] * per_h(i); }) * dt <= 1.0)
+void keep_implicit_part(int i0, int i1, double dt, bool half, PerH per_h, double* k) {
+  if (half || base::vector_largest(i0, i1, 0.0, [&](int i) { return k[i] * per_h(i); }) * dt <= 1.0)
     base::vector_loop(i0, i1, [&](int i) { k[i] *= 0.5 * dt; });
   else
     base::vector_loop(i0, i1, [&](int i) { k[i] *= dt * implicit_share(dt * k[i] * per_h(i)); });
+}
+
+/// Whether the diffusion number of rows [ja, jb) of a quantity is at most 1 whatever the direction, with the
+/// diffusivity factor x (nu + nut), factor at most 2.
+inline bool spreads_little(const Staggering& at, const base::Field& nut, double nu, double dt, int ja, int jb) {
+  double most = 0, per_h = 0;
+  for (double per : at.per_hx) per_h = std::max(per_h, per);
+  for (int j = ja - 1; j <= jb; ++j) {
+    const double* row = nut.row(j);
+    most = base::vector_largest(-1, nut.nx() + 1, most, [&](int i) { return row[i]; });
+    per_h = std::max(per_h, at.per_hy[j + 2]);
+  }
+  constexpr double widest = 2.0;  // openings are drawn closer by at most this
+  return 2.0 * widest * (nu + most) * per_h * per_h * dt <= 1.0;
 }
 
 /// One row of unknowns d along x, solved in place:

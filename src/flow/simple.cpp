@@ -70,7 +70,7 @@ double Simple::solve_component(const Mesh& m, const Boundary& b, const Params& p
     MomentumRows<Scheme> rows(m, b, params, s, {carrier_u_, carrier_v_, carrier_u_, carrier_v_, 0.0}, 1.0, 0.0, w, c,
                               scratch);
     double *acceleration = scratch.take(), *kx = scratch.take();
-    rows.start(ja, jb);
+    rows.start(ja, jb, nullptr);
     for (int j = ja; j < jb; ++j) {
       rows.next(acceleration, kx);
       couple(at, w, rows.carrier(), j, kx, rows.exchange_y(j), rows.exchange_y(j + 1));
@@ -176,11 +176,14 @@ double Simple::solve_scalar(const Mesh& m, const Params& params, const Staggerin
     CarrierRows carrier(m, {s.u, s.v, s.u, s.v, 0.0}, scratch);
     ScalarRows<Scheme> rows(m, params, turbulence, at, of_k, s, carrier, 0.0, w, scratch);
     double *rate = scratch.take(), *convection = scratch.take(), *gain = scratch.take(), *decay = scratch.take(),
-           *kx = scratch.take();
+           *kx = scratch.take(), *other_gain = scratch.take(), *other_decay = scratch.take();
     carrier.start(ja - 2);
     rows.start(ja);
     for (int j = ja; j < jb; ++j) {
-      rows.next(rate, convection, gain, decay, kx);
+      turbulence.fill_rates(m, j, s,
+                            of_k ? Turbulence::RowRates{gain, decay, other_gain, other_decay}
+                                 : Turbulence::RowRates{other_gain, other_decay, gain, decay});
+      rows.next(gain, decay, rate, convection, kx);
       const double *ky = rows.exchange_y(j), *ky_above = rows.exchange_y(j + 1);
       couple(at, w, carrier, j, kx, ky, ky_above);
       const double *inertia = at.inertia_.row(j), *width = at.width.data() + 2, height = at.height[j + 2];

@@ -42,10 +42,9 @@ void ScalarRows<Scheme>::start(int j) {
 }
 
 template <class Scheme>
-void ScalarRows<Scheme>::next(double* rate, double* convection, double* gain, double* decay, double* kx) {
+void ScalarRows<Scheme>::next(const double* gain, const double* decay, double* rate, double* convection, double* kx) {
   const int j = j_++;
   convect_.next(convection);
-  turbulence_.fill_rates(m_, of_k_, j, s_, gain, decay);
   turbulence_.fill_exchange_x(m_, params_, at_, of_k_, j, kx);
   fill_y(j + 1);
   const Field& field = of_k_ ? s_.k : turbulence_.second(s_);
@@ -88,13 +87,16 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
                   State& s, Workspace& w) {
   Field &change_k = w.change, &change_e = w.change_e;
   const double* per_hx = at.per_hx.data() + 2;
+  const bool little_everywhere = spreads_little(at, turbulence.nut(), params.viscosity, dt, 0, m.ny);
   w.rows.over_blocks(0, m.ny, [&](int ja, int jb) {
     constexpr int together = 8;
     RowScratch::Rows scratch = w.rows.rows();
     CarrierRows carrier(m, {s.u, s.v, s.u, s.v, 0.0}, scratch);
     ScalarRows<Scheme> rows_k(m, params, turbulence, at, true, s, carrier, dt, w, scratch);
     ScalarRows<Scheme> rows_e(m, params, turbulence, at, false, s, carrier, dt, w, scratch);
-    double *rate = scratch.take(), *gain = scratch.take(), *decay = scratch.take();
+    double* rate = scratch.take();
+    const Turbulence::RowRates rates{scratch.take(), scratch.take(), scratch.take(), scratch.take()};
+    const bool half = little_everywhere;
     std::array<std::array<double*, together>, 2> kx, factor;
     std::array<double*, together> slope{};
     for (int r = 0; r < together; ++r) {
@@ -107,23 +109,27 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
     for (int j = ja; j < jb;) {
       std::array<std::array<RowSystem, together>, 2> systems;
       int count = 0;
-      for (; j < jb && count < together; ++j, ++count)
+      for (; j < jb && count < together; ++j, ++count) {
+        turbulence.fill_rates(m, j, s, rates);
         for (int q : {0, 1}) {
           const bool of_k = q == 0;
           double* d = (of_k ? change_k : change_e).row(j);
           double* convection = (of_k ? w.convection : w.convection_e).row(j);
-          (of_k ? rows_k : rows_e).next(rate, convection, gain, decay, kx[q][count]);
+          const double *gain = of_k ? rates.gain_k : rates.gain_e, *decay = of_k ? rates.decay_k : rates.decay_e;
+          (of_k ? rows_k : rows_e).next(gain, decay, rate, convection, kx[q][count]);
           set_up_row(turbulence, m, of_k, j, dt, (of_k ? s.k : turbulence.second(s)).row(j), rate, decay, d,
                      factor[q][count]);
           keep_implicit_part(
-              0, m.nx + 1, dt, [&](int i) { return per_hx[i]; }, kx[q][count]);
+              0, m.nx + 1, dt, half, [&](int i) { return per_hx[i]; }, kx[q][count]);
           systems[q][count] = {factor[q][count], at.per_inertia.row(j), kx[q][count], d, slope[count]};
         }
+      }
       for (int q : {0, 1}) solve_rows(at, systems[q].data(), count);
     }
   });
   over_columns(at, w.columns, [&](int ia, int ib) {
     constexpr int wide = ColumnScratch::columns;
+    const bool half = little_everywhere;
     const auto solve = [&](bool of_k, double* d, double* slope) {
       // Exchange of the row in hand and of the one above it.
       double exchange[2][wide];
@@ -134,7 +140,7 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
           if (j + rows_ahead < m.ny) base::fetch_ahead(turbulence.nut().row(j + rows_ahead), ia, ib);
           turbulence.fill_exchange_y(m, params, at, of_k, j, ia, ib, k);
           keep_implicit_part(
-              0, ib - ia, dt, [per_h = at.per_hy[j + 2]](int) { return per_h; }, k);
+              0, ib - ia, dt, half, [per_h = at.per_hy[j + 2]](int) { return per_h; }, k);
           filled = j;
         }
         return k - ia;

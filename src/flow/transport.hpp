@@ -10,9 +10,9 @@ public:
   ScalarRows(const Mesh& mesh, const Params& params, const Turbulence& turbulence, const Staggering& at, bool of_k,
              const State& s, CarrierRows& carrier, double lead, const Workspace& w, RowScratch::Rows& scratch);
   void start(int j);
-  /// The next row: rate <- all of dc/dt now [c/s]; convection, gain <- those parts of it; decay <- [1/s]; kx <-
-  /// exchange across west faces [m/s].
-  void next(double* rate, double* convection, double* gain, double* decay, double* kx);
+  /// The next row, whose gain [c/s] and decay [1/s] are given: rate <- all of dc/dt now [c/s]; convection <- that part
+  /// of it; kx <- exchange across west faces [m/s].
+  void next(const double* gain, const double* decay, double* rate, double* convection, double* kx);
   const double* exchange_y(int j) const { return exchange_y_[j % 2]; }
 
 private:

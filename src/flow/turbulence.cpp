@@ -198,42 +198,38 @@ void Turbulence::prepare(const Mesh& m, const Boundary& b, const Params& params,
   fill_scalar_ghosts(m, nullptr, blend_);
 }
 
-void Turbulence::fill_rates(const Mesh& m, bool of_k, int j, const State& s, double* gain, double* decay) const {
+void Turbulence::fill_rates(const Mesh& m, int j, const State& s, const RowRates& to) const {
   const double *k = s.k.row(j), *ko = s.k_old.row(j), *e = second(s).row(j), *eo = second_old(s).row(j);
   const double *nut = nut_.row(j), *strain = strain_.row(j), ahead = ahead_;
   std::visit(
       [&](const auto& law) {
-        using Law = std::decay_t<decltype(law)>;
-        const auto fill = [&](auto rates) {
-          if constexpr (Law::transports_omega) {
-            const double *cross = cross_.row(j), *blend = blend_.row(j);
-            vector_loop(0, m.nx, [&](int i) {
-              const Rates r = rates(Local{centred(k[i], ko[i], ahead), centred(e[i], eo[i], ahead), nut[i], strain[i],
-                                          cross[i], blend[i]});
-              gain[i] = r.gain, decay[i] = r.decay;
-            });
-          } else {
-            vector_loop(0, m.nx, [&](int i) {
-              const Rates r =
-                  rates(Local{centred(k[i], ko[i], ahead), centred(e[i], eo[i], ahead), nut[i], strain[i], 0.0, 0.0});
-              gain[i] = r.gain, decay[i] = r.decay;
-            });
-          }
+        const auto fill = [&](auto cross, auto blend) {
+          vector_loop(0, m.nx, [&](int i) {
+            const Local a{
+                centred(k[i], ko[i], ahead), centred(e[i], eo[i], ahead), nut[i], strain[i], cross(i), blend(i)};
+            const Rates of_k = law.k(a), of_e = law.e(a);
+            to.gain_k[i] = of_k.gain, to.decay_k[i] = of_k.decay;
+            to.gain_e[i] = of_e.gain, to.decay_e[i] = of_e.decay;
+          });
         };
-        if (of_k)
-          fill([&](const Local& a) { return law.k(a); });
-        else
-          fill([&](const Local& a) { return law.e(a); });
+        if constexpr (std::decay_t<decltype(law)>::transports_omega) {
+          const double *cross = cross_.row(j), *blend = blend_.row(j);
+          fill([cross](int i) { return cross[i]; }, [blend](int i) { return blend[i]; });
+        } else {
+          fill([](int) { return 0.0; }, [](int) { return 0.0; });
+        }
       },
       law_);
-  if (const Field* source = of_k ? source_k_ : source_e_) {
+  const auto add = [&](const Field* source, double* gain) {
+    if (!source) return;
     const double* given = source->row(j);
     vector_loop(0, m.nx, [&](int i) { gain[i] += given[i]; });
-  }
-  if (!of_k || !with_omega()) return;
+  };
+  add(source_k_, to.gain_k), add(source_e_, to.gain_e);
+  if (!with_omega()) return;
   const auto before = [](const WallPlace& a, int row) { return a.j < row; };
   for (auto a = std::lower_bound(walls_.begin(), walls_.end(), j, before); a != walls_.end() && a->j == j; ++a)
-    gain[a->i] = a->gain, decay[a->i] += a->decay;
+    to.gain_k[a->i] = a->gain, to.decay_k[a->i] += a->decay;
 }
 
 template <class Fill>

@@ -36,8 +36,11 @@ public:
   /// fixed_row in cells whose value is given, 1 elsewhere.
   const base::SharedRows& factor(bool of_k) const { return of_k ? factor_k_ : factor_e_; }
 
-  /// gain, decay <- those of row j.
-  void fill_rates(const Mesh& mesh, bool of_k, int j, const State& s, double* gain, double* decay) const;
+  /// Rates of row j of both equations.
+  struct RowRates {
+    double *gain_k, *decay_k, *gain_e, *decay_e;
+  };
+  void fill_rates(const Mesh& mesh, int j, const State& s, const RowRates& to) const;
   /// k <- exchange across the west faces of row j, diffusivity x opening / distance [m/s].
   void fill_exchange_x(const Mesh& mesh, const Params& params, const Staggering& at, bool of_k, int j, double* k) const;
   /// The same across south faces, for cells ia <= i < ib; k[i - ia].
