@@ -154,6 +154,18 @@ TEST(keep_implicit_part, is_half_of_small_and_nearly_all_of_large_exchanges) {
   EXPECT_DOUBLE_EQ(k[3], 0.1 * 50.0 * (1 - 0.5 / 500.0));
 }
 
+TEST(spreads_little, is_sure_before_it_says_so) {
+  const Mesh m = graded_mesh();
+  const Staggering at = Staggering::centres(m);
+  base::Field nut(m.nx, m.ny);
+  const double nu = 1e-3, narrow = 0.02;  // the smallest cell
+  EXPECT_TRUE(spreads_little(at, nut, nu, 0.2 * narrow * narrow / nu, 0, m.ny));
+  EXPECT_FALSE(spreads_little(at, nut, nu, 1.1 * narrow * narrow / nu, 0, m.ny));
+  nut(5, 4) = 9e-3;
+  EXPECT_FALSE(spreads_little(at, nut, nu, 0.2 * narrow * narrow / nu, 0, m.ny));
+  EXPECT_TRUE(spreads_little(at, nut, nu, 0.2 * narrow * narrow / nu, 8, m.ny));
+}
+
 TEST(carrier, goes_half_a_step_ahead_of_the_last_two_levels) {
   const Mesh m = graded_mesh();
   State s;
