@@ -146,10 +146,10 @@ TEST(solve_rows, inverts_its_own_matrices) {
 TEST(keep_implicit_part, is_half_of_small_and_nearly_all_of_large_exchanges) {
   std::vector<double> k{1e-4, 2e-4, 1e-4, 50.0};
   keep_implicit_part(
-      0, 2, 0.1, [](int) { return 100.0; }, k.data());
+      0, 2, 0.1, true, [](int) { return 100.0; }, k.data());
   EXPECT_DOUBLE_EQ(k[0], 0.5 * 0.1 * 1e-4);
   keep_implicit_part(
-      2, 4, 0.1, [](int) { return 100.0; }, k.data());
+      2, 4, 0.1, false, [](int) { return 100.0; }, k.data());
   EXPECT_DOUBLE_EQ(k[2], 0.5 * 0.1 * 1e-4);
   EXPECT_DOUBLE_EQ(k[3], 0.1 * 50.0 * (1 - 0.5 / 500.0));
 }
