@@ -16,7 +16,8 @@ namespace {
 class Team {
 public:
   explicit Team(int size) : size_(size) {
-    for (int share = 1; share < size; ++share) workers_.emplace_back([this, share] {
+    for (int share = 1; share < size; ++share)
+      workers_.emplace_back([this, share] {
         index = share;
         serve(share);
       });

@@ -20,7 +20,8 @@ constexpr std::int64_t format_version = 2;
 /// Calls visit(name, field) for every field of the flow that the next step reads.
 template <class FlowState, class Visit>
 void each_field(FlowState& s, Visit&& visit) {
-  visit("u", s.u), visit("v", s.v), visit("p", s.p), visit("p_change", s.p_change), visit("k", s.k), visit("epsilon", s.epsilon), visit("nut", s.nut);
+  visit("u", s.u), visit("v", s.v), visit("p", s.p), visit("p_change", s.p_change), visit("k", s.k),
+      visit("epsilon", s.epsilon), visit("nut", s.nut);
   visit("u_old", s.u_old), visit("v_old", s.v_old), visit("k_old", s.k_old), visit("epsilon_old", s.epsilon_old);
   visit("convection_u", s.convection_u), visit("convection_v", s.convection_v);
   visit("convection_k", s.convection_k), visit("convection_e", s.convection_e);
