@@ -15,8 +15,10 @@ struct SolveReport {
 
 /// Solves  sum over faces c_f (p_cell - p_neighbour) + c_boundary p_cell = b.  Residuals are in double precision;
 /// corrections come from conjugate gradients with multigrid in single precision, repeated until the residual is small
-/// enough (iterative refinement).  Cells without any open face keep 0.  Without a boundary coefficient the pressure
-/// floats: b must then sum to 0 (its mean is taken out) and the solution has mean 0.
+/// enough (iterative refinement).  Where single precision does not get far, because the solution is a long wave along x
+/// that is huge beside its own differences, the mean of each column is solved for in double precision first.  Cells
+/// without any open face keep 0.  Without a boundary coefficient the pressure floats: b must then sum to 0 (its mean is
+/// taken out) and the solution has mean 0.
 class PressureSolver {
 public:
   PressureSolver() = default;
@@ -33,12 +35,15 @@ public:
 private:
   double residual(const base::Field& p, const base::Field& b);  ///< r <- b - A p; its norm
   void remove_mean(base::Field& a);
+  /// p += the function of x alone that takes the sum over each column out of r (Galerkin).
+  void correct_columns(base::Field& p);
 
   int nx_ = 0, ny_ = 0;
   bool floating_ = false;
   double fluid_cells_ = 0;
   base::Field c_x_, c_y_, c_boundary_, r_;
   Multigrid multigrid_;
+  std::vector<double> column_, column_x_, column_boundary_, slope_;  ///< sums over columns
   std::vector<double> partial_;
 };
 

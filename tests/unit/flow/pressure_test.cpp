@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <tuple>
 
 #include "base/loops.hpp"
 #include "base/math.hpp"
@@ -93,19 +94,21 @@ INSTANTIATE_TEST_SUITE_P(meshes, PressureShapes,
                                            Shape{"large", 1.5, 0.175, 0.0025, 0.001, 1, 0.05, true}),
                          [](const auto& shape) { return shape.param.name; });
 
-/// Cells a hundred times as wide as high: stiff lines, and smooth solutions that single precision cannot hold.
-TEST(pressure, solves_on_flat_cells) {
+/// Cells a hundred times as wide as high, or very many along x: stiff lines, and long waves that single precision
+/// cannot hold.
+TEST(pressure, solves_on_flat_cells_and_in_long_boxes) {
   for (bool outlet : {true, false})
-    for (double cell_y : {5e-4, 5e-5}) {
+    for (const auto& [nx, ny, cell_x, cell_y] :
+         {std::tuple{80, 100, 0.05, 5e-4}, {80, 100, 0.05, 5e-5}, {2000, 200, 1e-3, 5e-4}}) {
       MeshParams grid;
-      grid.length = 4, grid.height = 100 * cell_y, grid.cell_x = 0.05, grid.cell_y = cell_y;
+      grid.length = nx * cell_x, grid.height = ny * cell_y, grid.cell_x = cell_x, grid.cell_y = cell_y;
       System s = make_system(grid, PipeParams{.present = false}, outlet);
       PressureSolver solver(s.mesh.nx, s.mesh.ny);
       solver.set_coefficients(s.c_x, s.c_y, s.c_boundary);
       base::Field p(s.mesh.nx, s.mesh.ny);
       const SolveReport report = solver.solve(p, s.b, 1e-6, 60);
-      EXPECT_LE(report.iterations, 16) << outlet << " " << cell_y;
-      EXPECT_LE(report.relative(), 1e-6) << outlet << " " << cell_y;
+      EXPECT_LE(report.iterations, 16) << outlet << " " << nx << " " << cell_y;
+      EXPECT_LE(report.relative(), 1e-6) << outlet << " " << nx << " " << cell_y;
       EXPECT_GT(report.iterations, 0);
     }
 }
