@@ -61,7 +61,7 @@ nlohmann::ordered_json bench_flow(double cells) {
   const flow::Params p = pipe_in_channel(cells);
   flow::Solver fine = make_solver(p);
   flow::map_flow(coarse, fine);
-  const int warm_up = 8;
+  const int warm_up = 40;  // the jolt of the mapping dies away
   for (int k = 0; k < warm_up; ++k) fine.advance(fine.step_limit());
 
   // As many steps as fit into eight seconds, 10 at least; the median of their times is not led astray by a busy
