@@ -10,8 +10,8 @@ namespace livebed::base {
 
 namespace {
 
-/// Worker threads that sleep between loops.  A thread that waits spins for some ten microseconds, longer than the pause
-/// between two loops of a step, and then lets the system take its core: on a busy machine endless spinning, which
+/// Worker threads that sleep between loops.  A thread that waits spins for some hundred microseconds, longer than the
+/// pause between two loops of a step, and then lets the system take its core: on a busy machine endless spinning, which
 /// OpenMP does by default, makes two threads many times slower than one.
 class Team {
 public:
@@ -47,7 +47,7 @@ private:
   /// Returns the value once it is no longer `old` (at once when old is 0 or the value differs already).
   template <class T>
   static T wait_while(const std::atomic<T>& value, T old) {
-    constexpr int spins = 300;
+    constexpr int spins = 3000;
     for (int k = 0; k < spins; ++k) {
       const T now = value.load(std::memory_order_acquire);
       if (now != old || now == 0) return now;
