@@ -31,7 +31,7 @@ HIGH_RE = "OpenFOAM 9k, nutk, Re 190000, pipe 0.23 mm"
 # name: (what runs, with what it is compared, options).  Means over ten shedding periods or more, three on 52k;
 # OpenFOAM's finer meshes start from the coarser one's flow.  nutU is Livebed's smooth law: log law of the speed,
 # viscous below where they meet; nutk takes u* from k.  "pipe 0.93 mm": height of the cells on the pipe, 1.86 mm
-# otherwise; 1.86 mm on the bed in all.
+# otherwise; 1.86 mm on the bed in all.  "undamped": epsilon at walls without the paper's factor, as OpenFOAM's.
 RUNS = {
     "OpenFOAM 9k": ("openfoam", ROWS_94, dict(level="coarse", end=20, start=8, wall="nutU")),
     "OpenFOAM 20k": ("openfoam", ROWS_94, dict(level="medium", end=13.5, start=2.5, wall="nutU", source="OpenFOAM 9k")),
@@ -44,6 +44,8 @@ RUNS = {
         ("openfoam", ROWS_186,
          dict(level="medium", end=13, start=2, wall="nutU", at_pipe=0.00093, source="OpenFOAM 20k")),
     "Livebed 1080 x 186": ("livebed", ROWS_186, dict(mesh=HALF_ABOVE, end=16, start=5)),
+    "Livebed 540 x 94, undamped": ("livebed", ROWS_94, dict(mesh=EQUAL, end=20, start=8, damping=False)),
+    "Livebed 1080 x 186, undamped": ("livebed", ROWS_186, dict(mesh=HALF_ABOVE, end=16, start=5, damping=False)),
     "OpenFOAM 9k, nutk": ("openfoam", ROWS_94, dict(level="coarse", end=20, start=8)),
     "OpenFOAM 20k, nutk": ("openfoam", ROWS_94, dict(level="medium", end=14, start=3, source="OpenFOAM 9k, nutk")),
     "OpenFOAM 9k, nutk, pipe 0.47 mm":

@@ -46,8 +46,10 @@ def inlet_epsilon(y):
 # ------------------------------------------------------------------------------------------------------- Livebed
 
 
-def write_livebed(path, mesh, end, closure="k_epsilon", convection="bounded", courant=0.85, tolerance=1e-4):
-    """A case file without grains; mesh is a dictionary of the keys of [mesh] beside length and height."""
+def write_livebed(path, mesh, end, closure="k_epsilon", convection="bounded", courant=0.85, tolerance=1e-4,
+                  damping=True):
+    """A case file without grains; mesh is a dictionary of the keys of [mesh] beside length and height; damping: whether
+    epsilon at walls has the paper's Van Driest factor, which OpenFOAM's has not."""
     keys = "\n".join(f"{k} = {v!r}" for k, v in mesh.items())
     with open(path, "w") as f:
         f.write(f"""[mesh]
@@ -63,6 +65,7 @@ viscosity = {NU!r}
 closure = "{closure}"
 convection = "{convection}"
 floor = "smooth"
+wall_damping = {str(damping).lower()}
 courant = {courant}
 max_step = 0.1
 pressure_tolerance = {tolerance}

@@ -167,6 +167,11 @@ void add_flow(std::vector<Row>& s) {
                   .says("most outer iterations of simple in a step"));
   s.push_back(
       word("flow.floor", flow(&F::floor), walls).says("what the floor of the box does to the flow").from("Eq. 9-12"));
+  s.push_back(
+      flag("flow.wall_damping", flow(&F::wall_damping))
+          .says("Van Driest's factor in epsilon at walls with wall function, for the k-epsilon closures; without it "
+                "as in OpenFOAM; nothing above y+ = 100")
+          .from("Eq. 10-11"));
   s.push_back(real("flow.floor_roughness", "m", flow(&F::floor_roughness))
                   .at_least(0)
                   .says("ks of a rough floor; 2.5 d when 0"));

@@ -57,8 +57,8 @@ double wall_friction(Closure closure, Wall wall, double speed, double y, double 
 
 double wall_k(double u_star) { return std::max(k_floor, square(u_star) / std::sqrt(launder_spalding.c_mu)); }
 
-double wall_epsilon(double u_star, double y, double nu) {
-  const double damping = 1.0 - std::exp(-u_star * y / (van_driest * nu));
+double wall_epsilon(double u_star, double y, double nu, bool damped) {
+  const double damping = damped ? 1.0 - std::exp(-u_star * y / (van_driest * nu)) : 1.0;
   return std::max(epsilon_floor, damping > 0 ? base::cube(u_star) / (kappa * y * damping) : 0.0);
 }
 

@@ -48,8 +48,9 @@ double wall_friction(Closure closure, Wall wall, double speed, double y, double 
 /// y+ = 3 and the log law with E = 9 above y+ = 60 [m/s].
 double spalding_friction(double speed, double y, double nu);
 
-/// k, epsilon next to a wall with wall function (Eq. 10-12) from the shear velocity.
+/// k, epsilon next to a wall with wall function (Eq. 10-12) from the shear velocity.  damped: with Van Driest's factor
+/// of Eq. 10-11, which is 1 in the log layer; without it epsilon is u*^3/(kappa y) at any distance.
 double wall_k(double u_star);
-double wall_epsilon(double u_star, double y, double nu);
+double wall_epsilon(double u_star, double y, double nu, bool damped);
 
 }  // namespace livebed::flow

@@ -60,6 +60,7 @@ struct Params {
   Algorithm algorithm = Algorithm::projection;
   Wall floor = Wall::rough;
   double floor_roughness = 0;        ///< ks [m]
+  bool wall_damping = true;          ///< Van Driest's factor in epsilon at walls (Eq. 10-11) of the k-epsilon closures
   double courant = 0.8;              ///< target of the adaptive step [-]
   double max_step = 0.01;            ///< [s]; the step of simple
   double pressure_tolerance = 1e-6;  ///< residual after the solve over residual before it [-]

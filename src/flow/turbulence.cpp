@@ -115,7 +115,7 @@ void Turbulence::set_walls(const Params& params, const State& s, const Workspace
       a.gain = nut * square(u_star * u_star / (nu + nut));
       a.decay = a.wall != Wall::rough ? nu * a.length / a.y * a.per_inertia : 0.0;
     } else {
-      e = wall_epsilon(u_star, a.y, nu);
+      e = wall_epsilon(u_star, a.y, nu, params.wall_damping);
       fixed_k_.cells[fixed_k_.of_wall[n]].value = wall_k(u_star);
     }
   }

@@ -125,9 +125,12 @@ TEST(wall_friction, follows_each_law) {
 TEST(wall_values, follow_equations_10_to_12) {
   const double u_star = 0.05, nu = 1e-6;
   EXPECT_NEAR(wall_k(u_star), 0.0025 / 0.3, 1e-15);
-  EXPECT_NEAR(wall_epsilon(u_star, 0.01, nu), cube(u_star) / (kappa * 0.01 * (1 - std::exp(-500 / 26.0))), 1e-12);
+  EXPECT_NEAR(wall_epsilon(u_star, 0.01, nu, true), cube(u_star) / (kappa * 0.01 * (1 - std::exp(-500 / 26.0))), 1e-12);
   EXPECT_EQ(wall_k(0), k_floor);
-  EXPECT_EQ(wall_epsilon(0, 0.01, nu), epsilon_floor);
+  EXPECT_NEAR(wall_epsilon(u_star, 1e-4, nu, false), cube(u_star) / (kappa * 1e-4), 1e-9);
+  EXPECT_GT(wall_epsilon(u_star, 1e-4, nu, true), 4 * wall_epsilon(u_star, 1e-4, nu, false));
+  EXPECT_NEAR(wall_epsilon(u_star, 0.05, nu, true), wall_epsilon(u_star, 0.05, nu, false), 1e-9);
+  for (bool damped : {true, false}) EXPECT_EQ(wall_epsilon(0, 0.01, nu, damped), epsilon_floor);
 }
 
 TEST(ghosts, mirror_at_walls_and_carry_on_at_the_outlet) {
