@@ -271,12 +271,23 @@ template class MomentumRows<Hybrid>;
 
 namespace {
 
+/// f <- 0 where `at` has no unknowns.  The field goes from one quantity to the next with every step; a run that goes on
+/// from a checkpoint must not differ by what another quantity left there.
+void clear_beside(const Staggering& at, Field& f) {
+  for (int j = 0; j < f.ny(); ++j) {
+    const bool inside = j >= at.j0 && j < at.j1;
+    std::fill(f.row(j), f.row(j) + (inside ? at.i0 : f.nx()), 0.0);
+    if (inside) std::fill(f.row(j) + at.i1, f.row(j) + f.nx(), 0.0);
+  }
+}
+
 /// next <- predicted component; w.convection <- its convection.
 template <class Scheme>
 void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, const State& s, Workspace& w,
              const Component& c, Field& next) {
   const Staggering& at = c.at;
   const double* per_hx = at.per_hx.data() + 2;
+  clear_beside(at, w.convection);
   w.rows.over_blocks(at.j0, at.j1, [&](int ja, int jb) {
     constexpr int together = 8;
     RowScratch::Rows scratch = w.rows.rows();

@@ -41,10 +41,6 @@ private:
 /// c d(voidage)/dt)/voidage, the quantity does not change where it is uniform.
 void add_storage(const Staggering& at, const Workspace& w, int j, const double* c, double* convection);
 
-/// convection[i] += what the change of void fraction adds to the rate of a quantity c: with it, - (div(voidage u c) +
-/// c d(voidage)/dt)/voidage, the quantity does not change where it is uniform.
-void add_storage(const Staggering& at, const Workspace& w, int j, const double* c, double* convection);
-
 /// The velocity that carries all quantities through the step to come: u + dt/(2 dt_old) (u - u_old), centred in time.
 /// Both levels are free of divergence, so is their blend.  dt = 0: u as it is.
 Carrier centred_carrier(const State& s, double dt);
