@@ -26,14 +26,6 @@ Params rebounding(double restitution, Tension tension, double steps) {
   return p;
 }
 
-/// A grain thrown at the floor; returns it after the rebound.  u along, v > 0 the speed of approach.
-Body thrown_at_floor(Params p, double u, double v) {
-  p.gravity = 0;
-  Bed bed = bed_of(p, {{0.01, 0.6 * p.diameter, u, -v}});
-  while (body(bed, 0).y < 0.6 * p.diameter || body(bed, 0).v < 0) advance(bed, 1);
-  return body(bed, 0);
-}
-
 }  // namespace
 
 TEST(collision, head_on_pair_rebounds_with_the_restitution_asked_for) {
@@ -104,28 +96,6 @@ TEST(collision, no_force_where_the_contact_distance_is_not_reached) {
   }
 }
 
-TEST(collision, dropped_ball_bounces_as_in_mfix_dem01) {
-  Params p = dry(0.2, 2600, 1e4);
-  p.tension = Tension::spring;
-  p.steps_per_contact = 4000;
-  // The ball on the wall has the whole mass, so its damping ratio is alpha itself.
-  const double L = std::log(0.9);
-  p.damping = -L / std::sqrt(base::pi * base::pi + L * L);
-  p.restitution = 0;
-  Bed bed = bed_of(p, {{1, 0.5}});
-  double worst_y = 0, worst_v = 0;
-  const auto rows = read_csv("dem_mfix01_freefall_bounce.csv");
-  for (const auto& row : rows) {
-    advance(bed, static_cast<int>(std::lround(row[0] / bed.params.step) - bed.steps));
-    const double late = row[0] - static_cast<double>(bed.steps) * bed.params.step;
-    worst_y = std::max(worst_y, std::abs(body(bed, 0).y + late * body(bed, 0).v - row[2]));
-    worst_v = std::max(worst_v, std::abs(body(bed, 0).v - row[3]));
-  }
-  EXPECT_GT(rows.size(), 100u);
-  EXPECT_LT(worst_y, 2e-4);  // of a fall of 0.4 m
-  EXPECT_LT(worst_v, 0.01);  // of 2.8 m/s
-}
-
 TEST(collision, two_compressed_grains_swing_as_in_mfix_dem03) {
   // The lower grain is twice as heavy.  Ours have one density, so it is larger by 2^(1/3), and what lies above it moves
   // up with its surface: the equations of motion are the same.  The upper wall is a pipe so large that it is flat.
@@ -167,31 +137,4 @@ TEST(collision, slipping_grain_starts_to_roll_as_in_mfix_dem04) {
       EXPECT_NEAR(body(bed, 0).u, rolling, 2e-3 * u0);  // rolling costs nothing
     }
   }
-}
-
-TEST(collision, gas_of_elastic_grains_keeps_its_energy_and_momentum) {
-  Params p = quartz();
-  p.gravity = 0;
-  p.length = 0.03;
-  std::vector<Body> gas;
-  for (int i = 0; i < 60; ++i) {
-    const double angle = 2.4 * i;
-    gas.push_back({(i % 10 + 0.5) * 3e-3, 1 + (i / 10) * 3e-3, 0.2 * std::cos(angle), 0.2 * std::sin(angle)});
-  }
-  Bed bed = bed_of(p, gas);
-  const double energy = kinetic_energy(bed.params, bed.state);
-  const base::Vec2 before = momentum(bed.params, bed.state);
-  const std::int64_t rebuilds = bed.contacts.rebuilds;
-  double lowest = energy;
-  for (int look = 0; look < 400; ++look) {
-    advance(bed, 50);
-    lowest = std::min(lowest, kinetic_energy(bed.params, bed.state));
-  }
-  while (measure_contacts(bed).per_grain > 0) advance(bed, 1);  // nothing stored in springs
-  EXPECT_GT(bed.contacts.rebuilds, rebuilds + 10);
-  EXPECT_LT(lowest, 0.99 * energy);  // there were collisions
-  EXPECT_NEAR(kinetic_energy(bed.params, bed.state), energy, 1e-3 * energy);
-  const double scale = 60 * mass(bed.params, p.diameter) * 0.2;
-  EXPECT_NEAR(momentum(bed.params, bed.state).x, before.x, 1e-13 * scale);
-  EXPECT_NEAR(momentum(bed.params, bed.state).y, before.y, 1e-13 * scale);
 }
