@@ -13,6 +13,7 @@
 #include "flow/profiles.hpp"
 #include "grains/measures.hpp"
 #include "grains/packing.hpp"
+#include "io/file.hpp"
 
 /// Speeds on the jobs that docs/performance.md compares with other codes.
 namespace livebed::app {
@@ -97,7 +98,29 @@ nlohmann::ordered_json bench_flow(double cells) {
   return j;
 }
 
-nlohmann::ordered_json bench_grains(int count) {
+/// The bed and the constants of its contacts, for other codes to be timed on the same (bench/grains).
+void write_bed(const grains::Bed& bed, const std::string& path) {
+  const grains::Params& p = bed.params;
+  const auto told = [](const grains::Contact& c) -> nlohmann::ordered_json {
+    return {{"k_n", c.k_n}, {"k_s", c.k_s}, {"eta_n", c.eta_n}, {"eta_s", c.eta_s}, {"mu", c.mu}};
+  };
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  const grains::State& s = bed.state;
+  for (int i = 0; i < s.count(); ++i) rows.push_back({s.diameter[i], s.x[i], s.y[i], s.u[i], s.v[i], s.omega[i]});
+  nlohmann::ordered_json j;
+  j["density"] = p.density + p.added_mass * p.fluid_density;
+  j["mass"] = grains::mass(p, p.diameter);
+  j["gravity"] = grains::submerged_gravity(p);
+  j["step"] = p.step;
+  j["length"] = p.length;
+  j["diameter"] = p.diameter;
+  j["pair"] = told(grains::contact(p, 1));
+  j["wall"] = told(grains::contact(p, p.wall_factor));
+  j["grains"] = std::move(rows);
+  io::write_atomically(path, j.dump());
+}
+
+nlohmann::ordered_json bench_grains(int count, const std::string& bed_file) {
   // A bed of 26 layers packed once over a short length, then laid side by side.  At rest its lists would live for ever:
   // they are rebuilt as often as those of a bed under scour.
   constexpr int steps_a_list = 100;
@@ -110,6 +133,7 @@ nlohmann::ordered_json bench_grains(int count) {
   grains::Bed bed = grains::side_by_side(packing.bed, std::max(1, static_cast<int>(std::lround(count / 1560.0))));
   const grains::Reach reach = grains::reach_of(bed.params);
   grains::advance(bed, 2000);
+  if (!bed_file.empty()) write_bed(bed, bed_file);
   std::vector<double> times;
   const auto start = Clock::now();
   while (times.size() < 20 || since(start) < 6.0) {
@@ -147,6 +171,7 @@ void add_bench(CLI::App& app, Action& chosen) {
   struct Arguments {
     double cells = 390000;
     int grains = 6240;
+    std::string bed;
     bool json = false;
   };
   auto a = std::make_shared<Arguments>();
@@ -156,8 +181,10 @@ void add_bench(CLI::App& app, Action& chosen) {
   flow->callback([a, &chosen] { chosen = [a] { return tell(bench_flow(a->cells), a->json), base::Exit::ok; }; });
   CLI::App* grains = verb->add_subcommand("grains", "a settled bed, its lists rebuilt as in a moving one");
   grains->add_option("--grains", a->grains, "number of grains, about")->check(CLI::Range(1560, 10000000));
+  grains->add_option("--bed", a->bed, "file to write the settled bed and its constants to, for other codes");
   grains->add_flag("--json", a->json, "tell it as JSON");
-  grains->callback([a, &chosen] { chosen = [a] { return tell(bench_grains(a->grains), a->json), base::Exit::ok; }; });
+  grains->callback(
+      [a, &chosen] { chosen = [a] { return tell(bench_grains(a->grains, a->bed), a->json), base::Exit::ok; }; });
 }
 
 }  // namespace livebed::app
