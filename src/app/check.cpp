@@ -13,7 +13,7 @@
 #include "base/loops.hpp"
 #include "case/resolved.hpp"
 #include "flow/mesh.hpp"
-#include "grains/laws.hpp"
+#include "grains/sizes.hpp"
 
 namespace livebed::app {
 namespace {
@@ -60,6 +60,9 @@ std::vector<Number> derived_numbers(const casefile::Case& c) {
           {"water_depth", f.mesh.height - c.bed_thickness, "m", "above the nominal bed"},
           {"bed_thickness", c.bed_thickness, "m", "nominal level of the bed"},
           {"grains", static_cast<double>(g.count), "-", "number of grains"},
+          {"grain_diameter", g.diameter, "m", "d, mean or d50"},
+          {"smallest_grain", grains::smallest_diameter(g), "m", "diameter of the smallest grain"},
+          {"largest_grain", grains::largest_diameter(g), "m", "diameter of the largest grain"},
           {"pipe_y", f.pipe.present ? f.pipe.y : 0, "m", "centre of the pipe above the floor; 0 without a pipe"},
           {"time_scale", c.time_scale, "s", "T of the scour; 0 without a pipe or grains"},
           {"end", c.time.end, "s", "last time"},
@@ -69,7 +72,7 @@ std::vector<Number> derived_numbers(const casefile::Case& c) {
           {"contact_steps", g.steps_per_contact, "-", "grain steps in the critical time of a contact"},
           {"damping", g.damping, "-", "alpha_cn"},
           {"restitution", g.restitution, "-", "of a head-on pair"},
-          {"static_overlap", g.count > 0 ? casefile::static_overlap(c) : 0, "d", "of the lowest grains"},
+          {"static_overlap", g.count > 0 ? grains::static_overlap(g, c.bed_thickness) : 0, "d", "of the lowest grains"},
           {"cells", cells, "-", "cells of the grid"},
           {"flow_step", flow_step, "s", "estimate from the Courant number"},
           {"flow_steps", std::ceil(flow_steps), "-", "estimate, spin-up included"},

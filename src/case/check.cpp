@@ -6,14 +6,13 @@
 
 #include "base/fault.hpp"
 #include "base/math.hpp"
+#include "case/units.hpp"
 #include "flow/profiles.hpp"
 #include "grains/laws.hpp"
+#include "grains/sizes.hpp"
 
 namespace livebed::casefile {
 namespace {
-
-/// Mean of the squared diameter over d^2 when diameters are spread uniformly by +-spread.
-double mean_square_of_spread(double spread) { return 1 + base::square(spread) / 3; }
 
 double specific_density(const Case& c) { return c.grains.density / c.flow.density; }
 
@@ -22,13 +21,45 @@ flow::Profile log_law_of(flow::Profile profile) {
   return profile == flow::Profile::smooth ? flow::Profile::smooth : flow::Profile::rough;
 }
 
+/// Some other key than grains.diameter and grains.spread gives the sizes.
+bool is_graded(const Case& c) { return c.is_given("grains.d50") || c.is_given("grains.grading"); }
+
+grains::Grading grading_of(const Case& c) {
+  if (c.is_given("grains.d50")) return {{c.d10, 0.1}, {c.d50, 0.5}, {c.d90, 0.9}};
+  return parse_grading(c.grading);
+}
+
+/// What is wrong with the grading of a case that has one; empty when nothing is.
+std::string fault_of_grading(const Case& c) {
+  if (!is_graded(c)) return "";
+  if (c.is_given("grains.d50") && (c.d10 <= 0 || c.d90 <= 0))
+    return "grains.d50 needs grains.d10 and grains.d90 beside it";
+  try {
+    grains::check_grading(grading_of(c));
+  } catch (const base::Fault& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+void derive_sizes(Case& c) {
+  if (is_graded(c)) {
+    const std::string wrong = fault_of_grading(c);
+    if (!wrong.empty()) base::fail(base::Exit::invalid_case, "{}", wrong);
+    c.grains.grading = grading_of(c);
+    c.grains.diameter = grains::diameter_at(c.grains.grading, 0.5);
+  }
+  c.d50 = c.grains.diameter;
+}
+
+/// Turns the nominal thickness of a bed into a number of grains or the other way.
 void derive_bed(Case& c) {
   const grains::Params& g = c.grains;
+  const double thickness_of_one = base::sphere_area(1) * grains::mean_power(g, 2) / (packing_fraction * g.length);
   if (c.is_given("bed.count"))
-    c.bed_thickness = c.measured_level > 0 ? c.measured_level : thickness_of(g.count, g.length, g.diameter, g.spread);
+    c.bed_thickness = c.measured_level > 0 ? c.measured_level : g.count * thickness_of_one;
   else
-    c.grains.count = static_cast<int>(
-        std::lround(std::min(2.0 * most_grains, count_for(c.bed_thickness, g.length, g.diameter, g.spread))));
+    c.grains.count = static_cast<int>(std::lround(std::min(2.0 * most_grains, c.bed_thickness / thickness_of_one)));
 }
 
 void derive_current(Case& c) {
@@ -98,13 +129,26 @@ void check_window(const Combination& keys, const char* from_name, const char* to
 
 }  // namespace
 
-double thickness_of(double count, double length, double diameter, double spread) {
-  const double area = base::pi / 4 * base::square(diameter) * mean_square_of_spread(spread);
-  return count * area / (packing_fraction * length);
-}
-
-double count_for(double thickness, double length, double diameter, double spread) {
-  return thickness / thickness_of(1, length, diameter, spread);
+grains::Grading parse_grading(std::string_view text) {
+  const auto number = [&](std::string_view part, const char* unit, const char* example) {
+    const auto quantity = parse_quantity(part);
+    const auto given = quantity ? parse_unit(quantity->unit) : std::nullopt;
+    if (!given || !given->same_dimension(*parse_unit(unit)) || (quantity->unit.empty() && *unit == 'm'))
+      base::fail(base::Exit::invalid_case, "grains.grading: \"{}\" is not {}, as in \"0.2 mm: 10 %, 0.36 mm: 50 %\"",
+                 part, example);
+    return in_si(*quantity, *given);
+  };
+  grains::Grading points;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string_view point = text.substr(begin, end - begin);
+    const std::size_t colon = std::min(point.find(':'), point.size());
+    const std::string_view share = colon < point.size() ? point.substr(colon + 1) : std::string_view();
+    points.push_back({number(point.substr(0, colon), "m", "a diameter with its unit"),
+                      number(share, "-", "a share of the mass that passes")});
+    begin = end + 1;
+  }
+  return points;
 }
 
 double scour_time_scale(double D, double d, double s, double g, double theta) {
@@ -114,6 +158,7 @@ double scour_time_scale(double D, double d, double s, double g, double theta) {
 void derive(Case& c) {
   c.grains.fluid_density = c.flow.density;
   c.grains.length = c.flow.mesh.length;
+  derive_sizes(c);
   derive_bed(c);
   derive_current(c);
   flow::PipeParams& pipe = c.flow.pipe;
@@ -137,6 +182,10 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
   const flow::CurrentParams& current = c.flow.current;
   const double D = pipe.diameter, d = c.grains.diameter, bed = c.bed_thickness;
 
+  const std::string wrong = fault_of_grading(c);
+  keys({"grains.d50", "grains.d10", "grains.d90", "grains.grading"}).fault_if(!wrong.empty(), "{}", wrong);
+  if (!wrong.empty()) return;  // nothing could be derived from it
+
   // the box and its cells
   keys({"mesh.cell_x", "mesh.length"})
       .fault_if(mesh.cell_x > mesh.length / 4, "mesh.cell_x = {} m leaves fewer than 4 cells in mesh.length = {} m",
@@ -150,6 +199,14 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
                "mesh.height", mesh.fine_y_from, mesh.fine_y_to, mesh.height);
 
   // grains and bed
+  const bool graded = is_graded(c);
+  keys({"grains.d50", "grains.d10", "grains.d90"})
+      .fault_if(!c.is_given("grains.d50") && (c.d10 > 0 || c.d90 > 0),
+                "grains.d10 and grains.d90 belong to grains.d50, which is not given");
+  keys({"grains.spread", "grains.diameter", "grains.d50", "grains.grading"})
+      .fault_if(
+          graded && (c.is_given("grains.spread") || c.is_given("grains.diameter")),
+          "grains.spread and grains.diameter contradict a grading, grains.d50 or grains.grading: remove one of them");
   keys({"grains.density", "flow.density"})
       .fault_if(c.grains.density <= c.flow.density,
                 "grains.density = {} kg/m3 does not sink in water of flow.density = {} kg/m3", c.grains.density,
@@ -264,20 +321,14 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
                 "time.stop_at_equilibrium needs a pipe and grains: without them nothing is scoured");
 }
 
-double static_overlap(const Case& c) {
-  const double buoyant_weight =
-      (c.grains.density - c.flow.density) * c.grains.gravity * base::sphere_volume(c.grains.diameter);
-  const double layers = c.bed_thickness / c.grains.diameter;
-  return layers * buoyant_weight / (c.grains.stiffness * c.grains.diameter);
-}
-
 std::vector<std::string> notes(const Case& c) {
   std::vector<std::string> all;
-  if (c.grains.count > 0 && c.grains.stiffness > 0 && static_overlap(c) > overlap_to_note)
+  if (c.grains.count > 0 && c.grains.stiffness > 0 &&
+      grains::static_overlap(c.grains, c.bed_thickness) > overlap_to_note)
     all.push_back(
         fmt::format("the lowest grains overlap by {:.2g} d under the weight of the bed: raise "
                     "contact.stiffness or lower time.grain_step",
-                    static_overlap(c)));
+                    grains::static_overlap(c.grains, c.bed_thickness)));
   if (c.is_given("contact.damping") && c.grains.damping > 0.5 && c.grains.steps_per_contact < 40)
     all.push_back(
         fmt::format("contact.damping = {} with contact.steps = {} may never come to rest in a dense bed: "

@@ -28,9 +28,9 @@ inline constexpr double most_cells_in_kernel = 20;
 /// A larger estimate of the static overlap at the bottom of the bed over d earns a note: the bed would be too soft.
 inline constexpr double overlap_to_note = 0.01;
 
-/// Nominal thickness [m] of a settled bed of n grains over a length, and the count for a thickness.
-double thickness_of(double count, double length, double diameter, double spread);
-double count_for(double thickness, double length, double diameter, double spread);
+/// The sieve curve of a text like "0.2 mm: 10 %, 0.36 mm: 50 %".  Throws Fault (invalid case) naming the point that
+/// cannot be read; whether the curve makes sense is checked elsewhere (grains::check_grading).
+grains::Grading parse_grading(std::string_view text);
 
 /// Scour time scale T = D^2/sqrt(g (s-1) d^3) theta^(-5/3)/50 [s].
 double scour_time_scale(double D, double d, double s, double g, double theta);
@@ -45,9 +45,6 @@ void derive_at_level(Case& c, double level);
 /// Adds a fault for every combination of keys that makes no sense.  Combinations with a key that is bad already are
 /// passed over.
 void check(const Case& c, const Sources& sources, Faults& faults);
-
-/// Static overlap of the lowest grains under the submerged weight of the bed, over d [-].
-double static_overlap(const Case& c);
 
 /// What is allowed but deserves a second look, one sentence each.
 std::vector<std::string> notes(const Case& c);

@@ -42,6 +42,12 @@ std::string as_written(const toml::node& node) {
   return text.str();
 }
 
+/// The value of a key that is not given because another one stands for it.
+Value nothing(const Row& row) {
+  if (row.type == Type::text) return std::string();
+  return row.type == Type::integer ? Value(0LL) : Value(0.0);
+}
+
 std::string kind_of(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_array()) return "an array";
@@ -349,7 +355,7 @@ private:
     case_.given.push_back(chosen[0]);
     for (const std::string& key : group.keys) {
       const Row& row = *find_row(key);
-      if (key != chosen[0]) row.set(case_, row.type == Type::integer ? Value(0LL) : Value(0.0));
+      if (key != chosen[0]) row.set(case_, nothing(row));
       if (sources_.bad.contains(chosen[0])) sources_.bad.insert(key);
     }
   }

@@ -31,6 +31,7 @@ std::string resolved_text(const Case& c) {
     const std::size_t dot = row.name.find('.');
     const std::string value = written(row.get(c));
     if (follows(c, row)) {
+      if (row.type == Type::text) continue;  // a list that was not given: nothing follows but the empty one
       derived += fmt::format("{} = {}{}\n", row.name, value, unit_comment(row));
       continue;
     }

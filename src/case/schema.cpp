@@ -242,11 +242,27 @@ void add_bed(std::vector<Row>& s) {
 void add_grains(std::vector<Row>& s) {
   using G = grains::Params;
   const auto grains = [](auto G::*member) { return at(&Case::grains, member); };
-  s.push_back(real("grains.diameter", "m", grains(&G::diameter)).within(1e-6, 1).says("d, mean").from("Sec. 4.3"));
+  s.push_back(real("grains.diameter", "m", grains(&G::diameter))
+                  .within(1e-6, 1)
+                  .says("d, mean; follows as d50 from a grading")
+                  .from("Sec. 4.3"));
   s.push_back(real("grains.density", "kg/m3", grains(&G::density)).above(0).says("rho_s"));
   s.push_back(real("grains.spread", "-", grains(&G::spread))
                   .within(0, 0.5)
                   .says("half-width of the uniform distribution of diameters over d; 0 settles into a crystal"));
+  s.push_back(real("grains.d10", "m", at(&Case::d10))
+                  .at_least(0)
+                  .says("10 % of the mass of the sand is finer; goes with grains.d50; 0: not given"));
+  s.push_back(real("grains.d50", "m", at(&Case::d50))
+                  .within(1e-6, 1)
+                  .says("median by mass of sand of many sizes, instead of grains.diameter and grains.spread"));
+  s.push_back(real("grains.d90", "m", at(&Case::d90))
+                  .at_least(0)
+                  .says("90 % of the mass of the sand is finer; goes with grains.d50; 0: not given"));
+  s.push_back(
+      text("grains.grading", at(&Case::grading))
+          .says("the same as a sieve curve, diameter: share of the mass that passes, as in \"0.2 mm: 10 %, 0.36 "
+                "mm: 50 %, 0.6 mm: 90 %\"; log-linear between the points and beyond"));
   s.push_back(real("grains.added_mass", "-", grains(&G::added_mass)).within(0, 2).says("C_M").from("Eq. 15, Table 2"));
   s.push_back(word<grains::Inertia>("grains.inertia", grains(&G::inertia),
                                     {{"sphere", grains::Inertia::sphere}, {"disk", grains::Inertia::disk}})
@@ -382,11 +398,14 @@ const Row* find_row(std::string_view name) {
 }
 
 const std::vector<Alternatives>& alternatives() {
-  static const std::vector<Alternatives> groups{{{"current.theta", "current.mean_speed", "current.shear_velocity"}, ""},
-                                                {{"bed.thickness", "bed.count"}, "bed.thickness"},
-                                                {{"contact.stiffness", "time.grain_step"}, "time.grain_step"},
-                                                {{"contact.damping", "contact.restitution"}, "contact.restitution"},
-                                                {{"time.end", "time.end_over_T"}, "time.end"}};
+  static const std::vector<Alternatives> groups{
+      {{"current.theta", "current.mean_speed", "current.shear_velocity"}, ""},
+      {{"bed.thickness", "bed.count"}, "bed.thickness"},
+      {{"grains.diameter", "grains.d50", "grains.grading"}, "grains.diameter"},
+      {{"grains.spread", "grains.d50", "grains.grading"}, "grains.spread"},
+      {{"contact.stiffness", "time.grain_step"}, "time.grain_step"},
+      {{"contact.damping", "contact.restitution"}, "contact.restitution"},
+      {{"time.end", "time.end_over_T"}, "time.end"}};
   return groups;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/fault.hpp"
+#include "grains/sizes.hpp"
 
 namespace livebed::grains {
 
@@ -56,13 +57,18 @@ double damping_of(double restitution, Tension tension) {
 }
 
 Params derive(Params p) {
+  if (!p.grading.empty()) {
+    check_grading(p.grading);
+    p.diameter = diameter_at(p.grading, 0.5);
+    p.spread = 0;
+  }
   require(p.diameter > 0, "grains.diameter", p.diameter, "it is above 0 [m]");
   require(p.density > p.fluid_density, "grains.density", p.density, "grains are heavier than the fluid [kg/m3]");
   require(p.spread >= 0 && p.spread < 0.5, "grains.spread", p.spread, "it lies in [0, 0.5)");
   require(p.steps_per_contact > 4, "contact.steps", p.steps_per_contact, "more than 4");
   require(p.skin > 0, "contact.skin", p.skin, "it is above 0");
   require(p.gamma > 0, "contact.gamma", p.gamma, "it is above 0");
-  const double m = mass(p, p.diameter);
+  const double m = mass(p, smallest_diameter(p));  // the smallest grains swing fastest
 
   if (p.stiffness <= 0 && p.step <= 0) {
     fail(Exit::invalid_case, "neither contact.stiffness nor time.grain_step is given; give one of them");

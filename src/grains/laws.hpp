@@ -35,9 +35,9 @@ double restitution_of(double damping, Tension tension);
 /// The inverse, by bisection.  0 < restitution <= 1; for Tension::spring alpha < 1/sqrt(2).
 double damping_of(double restitution, Tension tension);
 
-/// Params with everything derived filled in: stiffness from step or step from stiffness (Eq. 25), damping from
-/// restitution or restitution from damping.  Deriving twice changes nothing.  Throws Fault (invalid case) when neither
-/// or contradicting values are given, or a value is out of range.
+/// Params with everything derived filled in: d50 of a grading; stiffness from step or step from stiffness (Eq. 25, with
+/// the mass of the smallest grains); damping from restitution or restitution from damping.  Deriving twice changes
+/// nothing.  Throws Fault (invalid case) when neither or contradicting values are given, or a value is out of range.
 Params derive(Params given);
 
 /// Constants of one kind of contact.

@@ -92,9 +92,4 @@ ContactMeasures measure_contacts(const Bed& bed) {
   return result;
 }
 
-double static_overlap(const Params& p, double height) {
-  const double weight = mass(p, p.diameter) * submerged_gravity(p);
-  return height / p.diameter * weight / (p.stiffness * p.diameter);
-}
-
 }  // namespace livebed::grains

@@ -30,8 +30,4 @@ struct ContactMeasures {
 /// From the present positions and lists; the bed must have been advanced at least once.
 ContactMeasures measure_contacts(const Bed& bed);
 
-/// Overlap over diameter of the lowest grain of a column of `height` of grains at rest on each other, by its spring
-/// [-]: what stiffness to expect before anything runs.
-double static_overlap(const Params& p, double height);
-
 }  // namespace livebed::grains

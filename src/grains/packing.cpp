@@ -6,6 +6,7 @@
 
 #include "base/fault.hpp"
 #include "grains/measures.hpp"
+#include "grains/sizes.hpp"
 
 namespace livebed::grains {
 
@@ -40,7 +41,7 @@ double unit(std::mt19937_64& generator) { return static_cast<double>(generator()
 Bed lattice(const Params& given) {
   Bed bed = make_bed(derive(given));
   const Params& p = bed.params;
-  const double largest = p.diameter * (1 + p.spread);
+  const double largest = largest_diameter(p);
   const double gap = p.lattice_gap * p.diameter;
   const int columns = static_cast<int>(p.length / (p.gamma * largest + gap));
   if (columns < 2) {
@@ -49,8 +50,9 @@ Bed lattice(const Params& given) {
   const double pitch = p.length / columns, rise = p.gamma * largest + gap;
   std::mt19937_64 generator(p.seed);
   State& s = bed.state;
+  const std::vector<double> diameters = sample_diameters(p);
   for (int i = 0; i < p.count; ++i) {
-    s.diameter[i] = p.diameter * (1 + p.spread * (2 * unit(generator) - 1));
+    s.diameter[i] = diameters[i];
     const double shift_x = 0.5 * gap * (unit(generator) - 0.5), shift_y = 0.5 * gap * (unit(generator) - 0.5);
     s.x[i] = (i % columns + 0.5) * pitch + shift_x;
     s.y[i] = (i / columns + 0.5) * rise + shift_y;
@@ -114,7 +116,7 @@ std::vector<SettleRow> place_pipe(Bed& bed, const Circle& target, double speed) 
     fail(Exit::invalid_case, "the pipe reaches {} m through the floor of the bed; raise it or make the bed thicker",
          radius - target.y);
   }
-  const double top = highest_grain(bed.state, p.length, target.x, radius + p.diameter);
+  const double top = highest_grain(bed.state, p.length, target.x, radius + largest_diameter(p));
   bed.pipe = target;
   bed.pipe.present = true;
   bed.pipe.y = std::max(target.y, top + radius);

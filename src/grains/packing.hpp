@@ -19,8 +19,8 @@ struct Packing {
 };
 
 /// The grains of the paper's Sec. 4.3 before they are let go: rows of a square lattice that fill the length, a gap of
-/// lattice_gap d between the largest possible grains, seeded diameters (uniform over d (1 +- spread)) and seeded shifts
-/// of at most half the gap, which only break the symmetry.  Same seed, same bits.
+/// lattice_gap d between the largest possible grains, diameters after sample_diameters and seeded shifts of at most
+/// half the gap, which only break the symmetry.  Same seed, same bits.
 Bed lattice(const Params& given);
 
 /// Lets the grains of a bed come to rest under their submerged weight: first in a thick fluid, then, from where the bed

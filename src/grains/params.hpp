@@ -1,4 +1,5 @@
 #pragma once
+#include <vector>
 
 /// Plain parameters of the grains: what a case file says, in SI units.  Filled by `case`, read by `grains`.
 /// Grains are spheres of diameter d whose centres stay in one vertical plane (a slab of thickness b = d).
@@ -14,11 +15,20 @@ enum class FrictionLimit { spring_force, total_force };
 /// The bottom: a row of fixed grains (the paper) or a smooth plane.
 enum class Floor { grains, plane };
 
+/// A point of a sieve curve: grains finer than `diameter` [m] are the share `passing` [-] of the mass.
+struct SievePoint {
+  double diameter, passing;
+};
+/// A sieve curve, both numbers rising from point to point: log-linear in between, and beyond the ends along the line of
+/// the nearest two points until nothing or everything passes.
+using Grading = std::vector<SievePoint>;
+
 struct Params {
   // the grain
-  double diameter = 2e-3;   ///< d [m], mean
+  double diameter = 2e-3;   ///< d [m], mean; d50 of a grading, filled in by derive
   double density = 2650;    ///< rho_s [kg/m3]
   double spread = 0.05;     ///< half-width of the uniform distribution of diameters over d [-]; 0 = equal grains
+  Grading grading;          ///< where it is given, sizes follow it instead of d and spread
   double added_mass = 0.5;  ///< C_M [-]
   Inertia inertia = Inertia::sphere;
   double fluid_density = 1000;  ///< rho [kg/m3], for added mass and submerged weight

@@ -163,6 +163,27 @@ const Bad bad_cases[] = {
      "bad.toml:4: coupling.kernel = 10 reaches 0.02 m, more than 20 cells of 0.0005 m: give at most 5"},
     {"level_beside_thickness", "[bed]\nthickness = 0.05\nlevel = 0.04\n",
      "bad.toml:5: bed.level = 0.04 m contradicts bed.thickness = 0.05 m: it goes with bed.count"},
+    // sizes
+    {"grading_with_one_point", "[grains]\ngrading = \"2 mm: 50 %\"\n",
+     "bad.toml:4: the grading of the grains: 1 points do not make a curve; give at least two"},
+    {"grading_without_units", "[grains]\ngrading = \"2: 50 %, 3: 90 %\"\n",
+     "bad.toml:4: grains.grading: \"2\" is not a diameter with its unit, as in \"0.2 mm: 10 %, 0.36 mm: 50 %\""},
+    {"grading_without_shares", "[grains]\ngrading = \"2 mm, 3 mm\"\n",
+     "bad.toml:4: grains.grading: \"\" is not a share of the mass that passes, as in \"0.2 mm: 10 %, 0.36 mm: 50 %\""},
+    {"grading_falling", "[grains]\nd10 = 3e-3\nd50 = 2e-3\nd90 = 2.5e-3\n",
+     "bad.toml:5: the grading of the grains: 0.002 m, 0.5 passing, comes after 0.003 m, 0.1 passing; both must rise "
+     "from point to point"},
+    {"grading_too_wide", "[grains]\ngrading = \"1 mm: 0, 8 mm: 100 %\"\n",
+     "bad.toml:4: the grading of the grains: the largest grain, 0.008 m, is 8 times the smallest, 0.001 m; at most 4 "
+     "times are allowed: cells and lists are made for the largest, the slab for the median; make the tails shorter"},
+    {"half_a_grading", "[grains]\nd50 = 2e-3\nd90 = 2.5e-3\n",
+     "bad.toml:4: grains.d50 needs grains.d10 and grains.d90 beside it"},
+    {"tails_of_no_grading", "[grains]\nd90 = 2.5e-3\n",
+     "bad.toml:4: grains.d10 and grains.d90 belong to grains.d50, which is not given"},
+    {"grading_and_diameter", "[grains]\ndiameter = 2e-3\ngrading = \"1 mm: 0, 3 mm: 100 %\"\n",
+     "bad.toml:5: grains.diameter and grains.grading contradict each other: give one of them"},
+    {"grading_and_spread", "[grains]\nspread = 0.1\ngrading = \"1 mm: 0, 3 mm: 100 %\"\n",
+     "bad.toml:5: grains.spread and grains.grading contradict each other: give one of them"},
     // walls
     {"rough_pipe_without_roughness", "[pipe]\nwall = \"rough\"\n",
      "bad.toml:4: pipe.wall = \"rough\" needs pipe.roughness, the ks of the pipe"},

@@ -19,8 +19,8 @@ double acceleration(double w) {
 }
 
 /// Root of the quadratic: weight = drag.
-double terminal_speed() {
-  const double b = 24 * nu / d, c = (rho_s / rho - 1) * gravity * 4 * d / 3;
+double terminal_speed(double size = d) {
+  const double b = 24 * nu / size, c = (rho_s / rho - 1) * gravity * 4 * size / 3;
   return (-b + std::sqrt(b * b + 4 * drag_infinity * c)) / (2 * drag_infinity);
 }
 
@@ -65,6 +65,20 @@ TEST(sinking_grain, follows_the_drag_law_one_way) {
   EXPECT_NEAR(fine.last_speed, terminal_speed(), 1e-5 * terminal_speed());
   EXPECT_LT(fine.largest_error, 4e-3);
   EXPECT_NEAR(coarse.largest_error / fine.largest_error, 2, 0.1);  // the drag coefficient is frozen over a flow step
+}
+
+TEST(sinking_grain, of_every_size_reaches_its_own_speed) {
+  const std::vector<double> sizes{1.0e-3, 1.6e-3, 2.4e-3, 4.0e-3};
+  const Tank tank{.length = 0.1, .height = 0.3, .coupling = {.mode = Mode::one_way}};
+  std::vector<Body> bodies;
+  for (const double size : sizes)
+    bodies.push_back({.x = 0.0123 + 0.02 * static_cast<double>(bodies.size()), .y = 0.28, .diameter = size});
+  Experiment experiment(tank, bodies);
+  const double dt = 100 * experiment.grain_step();
+  for (int n = 0; n < static_cast<int>(std::lround(0.5 / dt)); ++n) experiment.step(100);
+  const grains::State& g = experiment.bed().state;
+  for (int i = 0; i < g.count(); ++i)
+    EXPECT_NEAR(-g.v[i] / terminal_speed(g.diameter[i]), 1, 2e-4) << g.diameter[i] << " m";
 }
 
 TEST(sinking_grain, drags_water_along_two_way) {

@@ -18,6 +18,7 @@ struct Tank {
 
 struct Body {
   double x = 0, y = 0, u = 0, v = 0;  ///< [m], [m/s]
+  double diameter = 2e-3;             ///< [m]
 };
 
 class Experiment {
@@ -30,6 +31,7 @@ public:
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       bed_.state.x[k] = bodies[k].x, bed_.state.y[k] = bodies[k].y;
       bed_.state.u[k] = bodies[k].u, bed_.state.v[k] = bodies[k].v;
+      bed_.state.diameter[k] = bodies[k].diameter;
     }
   }
 

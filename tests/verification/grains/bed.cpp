@@ -4,6 +4,7 @@
 #include "bodies.hpp"
 #include "grains/measures.hpp"
 #include "grains/packing.hpp"
+#include "grains/sizes.hpp"
 
 using namespace livebed;
 using namespace livebed::grains;
