@@ -27,7 +27,7 @@ void over_blocks(int nm, int ny, Pass&& pass) {
 /// Solves the vertical lines of one colour, x = T^-1 (b + west x_west + east x_east).  Column m of this colour lies
 /// between columns m + shift and m + shift + 1 of the other; null b or other stand for zero.
 struct LineSolve {
-  const Columns &pivot, &slope, &west, &east;
+  const Coefficients &pivot, &slope, &west, &east;
   int east_shift, shift;
 
   void operator()(const Columns* b, const Columns* other, Columns& x) const {
@@ -65,13 +65,23 @@ struct LineSolve {
 
 }  // namespace
 
+void Coefficients::share() {
+  const Columns& c = columns_;
+  for (int j = 0; j < c.ny; ++j) {
+    // The column beyond the last is read, too.
+    const bool equal = j > 0 && std::equal(c.row(j), c.row(j) + c.nm + 1, c.row(first_[j - 1]));
+    first_[j] = equal ? first_[j - 1] : j;
+  }
+}
+
 Multigrid::Multigrid(int nx, int ny) {
   for (int n = nx; n >= 1; n /= 2) {
     Level level;
     level.nx = n;
     level.ny = ny;
     level.a = Stencil(n, ny);
-    level.pivot = level.slope = level.b = level.x = Split(n, ny);
+    level.pivot = level.slope = SplitOf<Coefficients>(n, ny);
+    level.b = level.x = Split(n, ny);
     levels_.push_back(std::move(level));
   }
   r_ = d_ = q_ = sz_ = sum_ = Columns(nx / 2, ny);
@@ -91,16 +101,16 @@ void Multigrid::factor(Level& l) {
   // A pivot is d = north + excess, where the excess is what the line up to here holds beyond its vertical couplings.
   // Passed on from row to row, excess = west + east + extra + south x excess_below / d_below, it is a sum of positive
   // numbers: in long lines of flat cells, where it is tiny beside d, a difference would lose it.
-  const auto one = [&](Columns& pivot, Columns& slope, Columns& passed, const Columns& north, const Columns& extra,
-                       const Columns& west, const Columns& east, int east_shift) {
-    over_blocks(pivot.nm, l.ny, [&](int m0, int m1) {
+  const auto one = [&](Coefficients& pivot, Coefficients& slope, Columns& passed, const Columns& north,
+                       const Columns& extra, const Coefficients& west, const Coefficients& east, int east_shift) {
+    over_blocks(passed.nm, l.ny, [&](int m0, int m1) {
       for (int j = 0; j < l.ny; ++j) {
         const int below = std::max(j - 1, 0);
         const float has_south = j > 0 ? 1.f : 0.f;
         const float *south = north.row(below), *passed_below = passed.row(below), *up = north.row(j),
                     *ex = extra.row(j);
         const float *w = west.row(j), *e = east.row(j) + east_shift;
-        float *p = pivot.row(j), *s = slope.row(j), *pass = passed.row(j);
+        float *p = pivot.own_row(j), *s = slope.own_row(j), *pass = passed.row(j);
         vector_loop(m0, m1, [&](int m) {
           const float from_south = has_south * south[m];
           const float excess = w[m] + e[m] + ex[m] + (from_south > 0.f ? from_south * passed_below[m] : 0.f);
@@ -113,6 +123,7 @@ void Multigrid::factor(Level& l) {
         });
       }
     });
+    pivot.share(), slope.share();
   };
   one(l.pivot.F, l.slope.F, l.x.F, l.a.north.F, l.a.extra.F, l.a.west, l.a.east, 0);
   one(l.pivot.C, l.slope.C, l.x.C, l.a.north.C, l.a.extra.C, l.a.east, l.a.west, 1);
@@ -136,7 +147,7 @@ void Multigrid::coarsen(const Level& fine, Level& coarse) {
     };
     for (int parity = 0; parity < 2; ++parity) {
       float *north = coarse.a.north.colour(parity).row(j), *extra = coarse.a.extra.colour(parity).row(j);
-      float* series = parity == 0 ? coarse.a.west.row(j) : coarse.a.east.row(j);
+      float* series = (parity == 0 ? coarse.a.west : coarse.a.east).own_row(j);
       vector_loop(0, (nc - parity + 1) / 2, [&](int m) {
         const int k = 2 * m + parity;
         const float from_west = over(e[k], w[k], e[k], x[k]), from_east = over(w[k + 1], w[k + 1], e[k + 1], x[k + 1]);
@@ -150,11 +161,13 @@ void Multigrid::coarsen(const Level& fine, Level& coarse) {
         series[m] = w[k] * from_west;
       });
     }
-    if (nc % 2) coarse.a.east.row(j)[nc / 2] = 0.f;
+    if (nc % 2) coarse.a.east.own_row(j)[nc / 2] = 0.f;
   });
+  coarse.a.west.share(), coarse.a.east.share();
 }
 
 void Multigrid::build() {
+  levels_[0].a.west.share(), levels_[0].a.east.share();
   factor(levels_[0]);
   for (std::size_t k = 1; k < levels_.size(); ++k) {
     coarsen(levels_[k - 1], levels_[k]);

@@ -26,18 +26,37 @@ struct Columns {
   const float* row(int j) const { return data.data() + static_cast<std::ptrdiff_t>(j) * pitch + pad; }
 };
 
-/// A vector over all cells of a level, columns split by colour.
-struct Split {
-  Columns F, C;
-  Split() = default;
-  Split(int nx, int ny) : F((nx + 1) / 2, ny), C(nx / 2, ny) {}
-  Columns& colour(int i) { return i % 2 ? C : F; }
+/// Columns of coefficients.  Where rows that follow one another are equal, as they are away from pipe and grains, all
+/// are read from the first of them, which stays in the cache.
+class Coefficients {
+public:
+  Coefficients() = default;
+  Coefficients(int nm, int ny) : columns_(nm, ny), first_(ny) {}
+  const float* row(int j) const { return columns_.row(first_[j]); }
+  float* own_row(int j) { return columns_.row(j); }
+  /// Looks for equal rows; after they were written and before they are read.
+  void share();
+  int nm() const { return columns_.nm; }
+
+private:
+  Columns columns_;
+  std::vector<int> first_;  ///< row that is read for each
 };
+
+/// Something over all cells of a level, columns split by colour.
+template <class Kind>
+struct SplitOf {
+  Kind F, C;
+  SplitOf() = default;
+  SplitOf(int nx, int ny) : F((nx + 1) / 2, ny), C(nx / 2, ny) {}
+  Kind& colour(int i) { return i % 2 ? C : F; }
+};
+using Split = SplitOf<Columns>;
 
 /// Coefficients of the five-point operator of one level: coupling of each F column to its western and eastern C column
 /// and of every cell to its upper neighbour; extra is what the diagonal holds beyond the sum of couplings.
 struct Stencil {
-  Columns west, east;  ///< of F columns; symmetric, so C columns read them too
+  Coefficients west, east;  ///< of F columns; symmetric, so C columns read them too
   Split north, extra;
   Stencil() = default;
   Stencil(int nx, int ny) : west((nx + 1) / 2, ny), east((nx + 1) / 2, ny), north(nx, ny), extra(nx, ny) {}
@@ -66,7 +85,7 @@ private:
   struct Level {
     int nx = 0, ny = 0;
     Stencil a;
-    Split pivot, slope;  ///< line factors: 1/d_j and north_j/d_j
+    SplitOf<Coefficients> pivot, slope;  ///< line factors: 1/d_j and north_j/d_j
     Split b, x;
   };
   static void factor(Level& level);

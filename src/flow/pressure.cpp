@@ -22,7 +22,14 @@ constexpr int a_refinement = 6;
 }  // namespace
 
 PressureSolver::PressureSolver(int nx, int ny)
-    : nx_(nx), ny_(ny), c_x_(nx, ny), c_y_(nx, ny), c_boundary_(nx, ny), r_(nx, ny), multigrid_(nx, ny) {}
+    : nx_(nx),
+      ny_(ny),
+      c_x_(nx, ny),
+      c_y_(nx, ny),
+      c_boundary_(nx, ny),
+      r_(nx, ny),
+      first_(ny + 1),
+      multigrid_(nx, ny) {}
 
 void PressureSolver::set_coefficients(const base::Field& c_x, const base::Field& c_y, const base::Field& c_boundary) {
   Stencil& a = multigrid_.finest();
@@ -34,11 +41,15 @@ void PressureSolver::set_coefficients(const base::Field& c_x, const base::Field&
     vector_loop(0, nx_, [&](int i) { x[i] = from_x[i], y[i] = inside * from_y[i], b[i] = from_b[i]; });
     x[0] = x[nx_] = 0;
   });
+  for (int j = 0; j <= ny_; ++j) {
+    const auto same = [&](const base::Field& c) { return std::equal(c.row(j), c.row(j) + nx_, c.row(first_[j - 1])); };
+    first_[j] = j > 0 && same(c_x_) && same(c_y_) && same(c_boundary_) ? first_[j - 1] : j;
+  }
   for_each_item(0, ny_, [&](int j) {
     const double *x = c_x_.row(j), *north = c_y_.row(j + 1), *b = c_boundary_.row(j);
-    float *w = a.west.row(j), *e = a.east.row(j);
+    float *w = a.west.own_row(j), *e = a.east.own_row(j);
     float *nF = a.north.F.row(j), *nC = a.north.C.row(j), *xF = a.extra.F.row(j), *xC = a.extra.C.row(j);
-    vector_loop(0, a.west.nm, [&](int m) {
+    vector_loop(0, a.west.nm(), [&](int m) {
       w[m] = static_cast<float>(x[2 * m]), e[m] = static_cast<float>(x[2 * m + 1]);
       nF[m] = static_cast<float>(north[2 * m]), xF[m] = static_cast<float>(b[2 * m]);
     });
@@ -60,7 +71,9 @@ void PressureSolver::set_coefficients(const base::Field& c_x, const base::Field&
 
 double PressureSolver::residual(const base::Field& p, const base::Field& b) {
   const double squares = base::ordered_sum(0, ny_, partial_, [&](int j) {
-    const double *x = c_x_.row(j), *y = c_y_.row(j), *north = c_y_.row(j + 1), *boundary = c_boundary_.row(j);
+    const int shared = first_[j];
+    const double *x = c_x_.row(shared), *y = c_y_.row(shared), *north = c_y_.row(first_[j + 1]),
+                 *boundary = c_boundary_.row(shared);
     const double *pj = p.row(j), *below = p.row(j - 1), *above = p.row(j + 1), *bj = b.row(j);
     double* r = r_.row(j);
     vector_loop(0, nx_, [&](int i) {

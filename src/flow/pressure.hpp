@@ -42,6 +42,7 @@ private:
   bool floating_ = false;
   double fluid_cells_ = 0;
   base::Field c_x_, c_y_, c_boundary_, r_;
+  std::vector<int> first_;  ///< row whose coefficients are read for each: the first of equal ones
   Multigrid multigrid_;
   std::vector<double> column_, column_x_, column_boundary_, slope_;  ///< sums over columns
   std::vector<double> partial_;

@@ -23,8 +23,8 @@ struct Plain {
         const int m = i / 2;
         // West and east of F columns: columns i-1 and i+1 of even i.
         if (i % 2 == 0) {
-          a.west.row(j)[m] = static_cast<float>(i > 0 ? at(east, i - 1, j) : 0.0);
-          a.east.row(j)[m] = static_cast<float>(i + 1 < nx ? at(east, i, j) : 0.0);
+          a.west.own_row(j)[m] = static_cast<float>(i > 0 ? at(east, i - 1, j) : 0.0);
+          a.east.own_row(j)[m] = static_cast<float>(i + 1 < nx ? at(east, i, j) : 0.0);
         }
         a.north.colour(i).row(j)[m] = static_cast<float>(j + 1 < ny ? at(north, i, j) : 0.0);
         a.extra.colour(i).row(j)[m] = static_cast<float>(at(extra, i, j));
