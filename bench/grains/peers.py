@@ -82,7 +82,7 @@ def lammps_deck(told, skin, tension="none", wall=True, stages=((0, 0.0),), every
         lines += [f"fix weight all gravity {told['gravity']!r} vector 0 -1 0",
                   f"fix floor all wall/gran {law('wall')} yplane 0.0 NULL"]
     lines += ["thermo 100000", "thermo_modify lost error norm no"]
-    return "\n".join(lines + run_lines(stages, every)) + f"\n{end}\n"
+    return "\n".join(lines + run_lines(stages, every, "line ")) + f"\n{end}\n"
 
 
 def liggghts_deck(told, skin, stages=((0, 0.0),), every=0, end="", dimension=3):
@@ -110,12 +110,13 @@ def liggghts_deck(told, skin, stages=((0, 0.0),), every=0, end="", dimension=3):
     return "\n".join(lines + run_lines(stages, every)) + f"\n{end}\n"
 
 
-def run_lines(stages, every):
+def run_lines(stages, every, word=""):
+    """word: what LAMMPS wants before the format and the older LIGGGHTS does not."""
     lines = []
     total = sum(n for n, _ in stages)
     if total > 0:
         lines += [f"dump out all custom {every or total} out.dump id diameter x y vx vy omegaz",
-                  'dump_modify out format line "%d %.17g %.17g %.17g %.17g %.17g %.17g"']
+                  f'dump_modify out format {word}"%d %.17g %.17g %.17g %.17g %.17g %.17g"']
     for k, (steps, drag) in enumerate(stages):
         if drag > 0:
             lines += [f"fix drag{k} all viscous {drag!r}"]
