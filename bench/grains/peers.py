@@ -51,6 +51,7 @@ def call(folder, program, deck, cores=1, mpi=True):
         command = ["mpirun", "-n", str(cores), "--oversubscribe", "--allow-run-as-root", *command]
     environment = dict(os.environ, OMP_NUM_THREADS="1")
     done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          errors="replace",
                           env=environment)
     if done.returncode != 0:
         sys.exit(f"{program} failed in {folder}:\n{done.stdout[-2000:]}")

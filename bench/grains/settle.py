@@ -153,24 +153,28 @@ def main():
     beds = {code: [] for code in CODES}
     print("| friction | spread | code | height [mm] | off | contacts a grain | off | filled | off | "
           "mean speed [m/s] | forces, largest difference of shares |\n|" + "---|" * 11)
+    # "off": Livebed against the code, with the standard error of that difference.
     missed = False
     for friction, spread in CASES:
-        means, pooled = {}, {}
+        means, errors, pooled = {}, {}, {}
         for code in CODES:
             measured = [measure(*settled(code, a.build, a.out, friction, spread, seed + 1)) for seed in range(a.seeds)]
             beds[code] += measured
             means[code] = {name: statistics.mean(m[name] for m in measured)
                            for name in ("height", "contacts", "filled", "speed")}
+            errors[code] = {name: statistics.stdev(m[name] for m in measured) / a.seeds**0.5 for name in TARGETS}
             pooled[code] = [f for m in measured for f in m["forces"]]
         ours = means["Livebed"]
         for code in CODES:
             m = means[code]
             off = dict(height=ours["height"] / m["height"] - 1, contacts=ours["contacts"] / m["contacts"] - 1,
                        filled=ours["filled"] - m["filled"])
+            error = {name: math.hypot(errors[code][name], errors["Livebed"][name]) for name in TARGETS}
             missed |= any(abs(off[name]) > TARGETS[name] for name in TARGETS)
             told = ["" if code == "Livebed" else text
-                    for text in (f"{100 * off['height']:+.2f} %", f"{100 * off['contacts']:+.2f} %",
-                                 f"{off['filled']:+.4f}",
+                    for text in (f"{100 * off['height']:+.2f} ({100 * error['height'] / m['height']:.2f}) %",
+                                 f"{100 * off['contacts']:+.2f} ({100 * error['contacts'] / m['contacts']:.2f}) %",
+                                 f"{off['filled']:+.4f} ({error['filled']:.4f})",
                                  f"{largest_difference_of_shares(pooled[code], pooled['Livebed']):.3f}")]
             print(f"| {friction} | {spread} | {code} | {1e3 * m['height']:.2f} | {told[0]} | {m['contacts']:.3f} |"
                   f" {told[1]} | {m['filled']:.4f} | {told[2]} | {m['speed']:.1e} | {told[3]} |", flush=True)

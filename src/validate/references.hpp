@@ -1,12 +1,13 @@
 #pragma once
 #include <string_view>
 
-/// Tables of data/ that flows are held against, with their source headers; part of the program.
+/// Tables of data/ that flows and grains are held against, with their source headers; part of the program.
 namespace livebed::validate {
 
 extern const std::string_view ghia_u, ghia_v;                               ///< data/ghia1982_cavity_u.csv, _v.csv
 extern const std::string_view channel_dns;                                  ///< data/channel_dns_retau180.csv
 extern const std::string_view cylinder_laminar;                             ///< data/cylinder_laminar.csv
 extern const std::string_view step_friction, step_pressure, step_profiles;  ///< data/bfs_driver_seegmiller_*.csv
+extern const std::string_view oblique_impact;                               ///< data/dem_chung_ooi_test4.csv
 
 }  // namespace livebed::validate

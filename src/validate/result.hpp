@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-/// Comparisons of whole flows with the literature: `livebed validate NAME`.
+/// Comparisons of whole flows and beds with the literature: `livebed validate NAME`.
 namespace livebed::validate {
 
 /// One number that came out and what it is held against.

@@ -1,0 +1,100 @@
+#include "validate/grain_beds.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <random>
+
+#include "base/fault.hpp"
+#include "grains/measures.hpp"
+
+namespace livebed::validate {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+}  // namespace
+
+RestRun run_rest(grains::Params params) {
+  const auto start = Clock::now();
+  RestRun run;
+  grains::Bed bed = grains::lattice(params);
+  try {
+    run.grain_time = grains::settle(bed).back().time;
+    run.settled = true;
+  } catch (const base::Fault& fault) {
+    if (fault.code() != base::Exit::stopped_by_limit) throw;
+    run.grain_time = params.settle_time;
+  }
+  grains::advance(bed, 10000);
+  for (int look = 0; look < 20; ++look) {
+    grains::advance(bed, 500);
+    run.mean_speed = std::max(run.mean_speed, grains::mean_speed(bed.state));
+  }
+  run.contacts = grains::measure_contacts(bed).per_grain;
+  run.seconds = since(start);
+  return run;
+}
+
+HeapRun run_heap(const HeapSetup& setup) {
+  constexpr double sinking = 0.15;               // speed of a grain that sinks alone [m/s]
+  constexpr double start_above = 0.06;           // the lowest grain's first place: above the heap to come [m]
+  constexpr double at_rest = 1e-5, longest = 3;  // mean speed [m/s]; time it may take after the last grain [s]
+  const auto begin = Clock::now();
+  grains::Params p;
+  p.spread = 0.3;  // no crystal, whose facets would be the slope
+  p.stiffness = 550;
+  p.restitution = 0.3;
+  p.friction = setup.friction;
+  p.steps_per_contact = 40;  // the smallest grains are a third as heavy as the mean one
+  p.wall_factor = 1;         // the floor is of grains like the others
+  p.floor = grains::Floor::grains;
+  p.length = 0.4;
+  p.count = setup.grains;
+  grains::Bed bed = grains::make_bed(grains::derive(p));
+  std::mt19937_64 generator(setup.seed);
+  const auto random = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-52 - 1; };  // in [-1, 1)
+  grains::State& s = bed.state;
+  const double middle = 0.5 * p.length, weight = grains::submerged_gravity(p);
+  for (int i = 0; i < p.count; ++i) {
+    s.diameter[i] = p.diameter * (1 + p.spread * random());
+    s.x[i] = middle + (i % 2 == 0 ? -0.75 : 0.75) * p.diameter + 0.1 * p.diameter * random();
+    s.y[i] = start_above + 1.3 * p.diameter * (i / 2);
+    s.fluid.beta[i] = grains::mass(p, s.diameter[i]) * weight / sinking;
+  }
+  const double last_down = (start_above + 0.65 * p.diameter * p.count) / sinking;
+  while (static_cast<double>(bed.steps) * bed.params.step < last_down) grains::advance(bed, 1000);
+  std::fill(s.fluid.beta.begin(), s.fluid.beta.end(), 0.0);
+  HeapRun run;
+  do {
+    grains::advance(bed, 1000);
+    run.mean_speed = grains::mean_speed(s);
+  } while (run.mean_speed > at_rest && static_cast<double>(bed.steps) * bed.params.step < last_down + longest);
+
+  const double width = 2 * p.diameter;
+  const int bins = static_cast<int>(p.length / width);
+  std::vector<double> top(bins, 0.0);
+  for (int i = 0; i < p.count; ++i) {
+    double& highest = top[std::min(bins - 1, static_cast<int>(s.x[i] / p.length * bins))];
+    highest = std::max(highest, s.y[i] + 0.5 * s.diameter[i]);
+  }
+  run.height = *std::max_element(top.begin(), top.end());
+  for (int k = 0; k < bins; ++k) {
+    run.x.push_back((k + 0.5) * p.length / bins - middle), run.surface.push_back(top[k]);
+  }
+  // The mean height of the grains of a triangle is a third of its height, their mean distance from the middle a third
+  // of half its base.
+  double height[2] = {0, 0}, distance[2] = {0, 0};  // sums left and right of the middle
+  for (int i = 0; i < p.count; ++i) {
+    const double area = base::sphere_area(s.diameter[i]), off = s.x[i] - middle;
+    height[off > 0] += area * s.y[i], distance[off > 0] += area * std::abs(off);
+  }
+  const auto degrees = [&](int side) { return std::atan(height[side] / distance[side]) * 180 / base::pi; };
+  run.left = degrees(0), run.right = degrees(1);
+  run.seconds = since(begin);
+  return run;
+}
+
+}  // namespace livebed::validate

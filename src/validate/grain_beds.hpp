@@ -1,0 +1,35 @@
+#pragma once
+#include <vector>
+
+#include "grains/packing.hpp"
+
+/// Beds and heaps of a few hundred grains that tell whether contacts add up to sand.
+namespace livebed::validate {
+
+/// Does a settled bed come to rest and stay at rest?
+struct RestRun {
+  bool settled = false;   ///< within settle_time
+  double mean_speed = 0;  ///< mean over the grains, its largest 10000 to 20000 steps after settling [m/s]
+  double grain_time = 0;  ///< until it was settled [s]
+  double contacts = 0;    ///< touching grains a grain
+  double seconds = 0;     ///< wall time
+};
+RestRun run_rest(grains::Params params);
+
+/// Grains of 2 mm that sink slowly, two abreast, onto a rough floor and pile up.
+struct HeapSetup {
+  int grains = 800;
+  double friction = 0.5;
+  unsigned seed = 1;
+};
+struct HeapRun {
+  double left = 0, right = 0;      ///< slope of the flanks [degrees]
+  double height = 0;               ///< of the top [m]
+  double mean_speed = 0;           ///< at the end [m/s]
+  std::vector<double> x, surface;  ///< from the middle, of bins two grains wide [m]
+  double seconds = 0;
+  double angle() const { return 0.5 * (left + right); }
+};
+HeapRun run_heap(const HeapSetup& setup);
+
+}  // namespace livebed::validate

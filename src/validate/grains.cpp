@@ -1,0 +1,199 @@
+#include "validate/grains.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "validate/grain_beds.hpp"
+#include "validate/grain_gas.hpp"
+#include "validate/grain_impact.hpp"
+#include "validate/picture.hpp"
+
+namespace livebed::validate {
+
+namespace {
+
+const std::vector<std::string> colours = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e"};
+
+/// Rows and pictures as they come, told at once.
+struct Book {
+  Result result;
+  const Tell& tell;
+
+  void add(Row row) {
+    tell(fmt::format("{}: {:.4g} {}{}", row.name, row.value, row.unit, row.pass() ? "" : "  <- outside"));
+    result.rows.push_back(std::move(row));
+  }
+  void draw(const std::string& name, const report::Chart& chart) {
+    result.pictures.push_back({"grains_" + name + ".svg", picture(chart)});
+  }
+};
+
+void oblique_impacts(Book& book) {
+  struct Quantity {
+    const char* name;
+    const char* label;
+    const char* unit;
+    double Rebound::*member;
+    double digitised;  ///< how far the curve's points may be off where the contact slides
+  };
+  const std::vector<Quantity> quantities = {
+      {"tangential_restitution", "tangential restitution", "-", &Rebound::tangential_restitution, 0.005},
+      {"final_spin_rad_s", "spin after the impact", "1/s", &Rebound::spin, 12},
+      {"contact_point_rebound_angle_deg", "rebound angle of the contact point", "degrees", &Rebound::contact_angle, 1}};
+  constexpr double sliding = 38;  // [degrees]; contacts slide throughout above that
+  // The default, and Hertz and Mindlin's ratio 2 (1 - nu) / (2 - nu) for nu = 0.23.
+  const std::vector<std::pair<double, std::string>> ratios = {{1 / 2.6, "1/2.6"}, {0.87, "0.87"}};
+  const std::string setup =
+      "sphere of 5 mm, 4000 kg/m3, at 3.9 m/s on a plane, friction 0.092, restitution 0.98, no gravity, linear "
+      "springs, "
+      "2000 steps a contact";
+  for (const Quantity& q : quantities) {
+    const auto start = std::chrono::steady_clock::now();
+    report::Chart chart{{"angle from the normal [degrees]"}, {fmt::format("{} [{}]", q.label, q.unit)}, {}};
+    const ImpactData reference = impact_data("al_oxide_FEM_DEM_reference", q.name);
+    const ImpactData experiment = impact_data("experiment", q.name);
+    for (std::size_t k = 0; k < ratios.size(); ++k) {
+      double worst_sliding = 0, worst_sticking = 0;
+      for (std::size_t n = 0; n < reference.angle.size(); ++n) {
+        const double found = run_oblique_impact(reference.angle[n], ratios[k].first).*q.member;
+        double& worst = reference.angle[n] < sliding ? worst_sticking : worst_sliding;
+        worst = std::max(worst, std::abs(found - reference.value[n]));
+      }
+      report::Curve curve{"linear springs, tangential over normal " + ratios[k].second, colours[k], {}, {}};
+      for (int degrees = 2; degrees <= 86; degrees += 2) {
+        curve.x.push_back(degrees);
+        curve.y.push_back(run_oblique_impact(degrees, ratios[k].first).*q.member);
+      }
+      chart.curves.push_back(curve);
+      for (const bool slides : {true, false}) {
+        Row row{fmt::format("oblique impact, {}, {} degrees, springs {}: largest difference", q.label,
+                            slides ? "above 38" : "below 38", ratios[k].second),
+                slides ? worst_sliding : worst_sticking, q.unit};
+        if (slides) row.low = 0, row.high = q.digitised;
+        row.reference = "Chung and Ooi (2011), test 4, finite elements and Hertz contacts";
+        row.setup = setup;
+        row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        book.add(row);
+      }
+    }
+    chart.curves.push_back({"Chung and Ooi (2011)", "#000000", reference.angle, reference.value, true});
+    chart.curves.push_back({"experiment (Kharaz et al.)", "#2ca02c", experiment.angle, experiment.value, true});
+    book.draw(fmt::format("oblique_{}", q.name), chart);
+  }
+}
+
+void colliding_grains(Book& book) {
+  report::Chart chart{{"time [s]"}, {"energy over the first"}, {}};
+  std::size_t k = 0;
+  for (const double restitution : {1.0, 0.9, 0.6, 0.3}) {
+    const GasRun run = run_gas({.restitution = restitution});
+    const std::string setup = fmt::format(
+        "1000 grains, 2 mm +- 5 %, thrown up to 0.5 m/s over a smooth plane under their weight, frictionless, "
+        "restitution {}, 200 steps a contact, 60000 steps",
+        restitution);
+    const auto add = [&](const std::string& name, double value, double high, const std::string& unit) {
+      Row row{fmt::format("colliding grains, restitution {}: {}", restitution, name), value, unit};
+      if (high == high) row.low = 0, row.high = high;
+      row.reference = high == high ? "conservation of energy and momentum" : "";
+      row.setup = setup, row.seconds = run.seconds;
+      book.add(row);
+    };
+    const double told = std::numeric_limits<double>::quiet_NaN();
+    if (restitution == 1) add("largest drift of the energy", run.drift, 1e-4, "of the first");
+    add("largest gain of energy", std::max(0.0, run.largest_gain), restitution == 1 ? told : 1e-5, "of the first");
+    add("change of momentum along the plane", std::abs(run.momentum), 1e-12, "of sum m |u|");
+    add("collisions", static_cast<double>(run.collisions), told, "-");
+    chart.curves.push_back({fmt::format("restitution {}", restitution), colours[k++], run.time, run.energy});
+  }
+  book.draw("energy", chart);
+}
+
+void rest(Book& book) {
+  struct Damping {
+    double restitution, alpha;
+    grains::Tension tension;
+    double steps;
+    const char* name;
+  };
+  using grains::Tension;
+  const std::vector<Damping> offered = {{0.1, 0, Tension::none, 20, "restitution 0.1"},
+                                        {0.3, 0, Tension::none, 20, "restitution 0.3"},
+                                        {0.5, 0, Tension::none, 20, "restitution 0.5"},
+                                        {0.7, 0, Tension::none, 20, "restitution 0.7"},
+                                        {0.9, 0, Tension::none, 20, "restitution 0.9"},
+                                        {0.1, 0, Tension::spring, 20, "restitution 0.1, the dashpot may pull"},
+                                        {0.5, 0, Tension::spring, 20, "restitution 0.5, the dashpot may pull"},
+                                        {0, 1, Tension::none, 60, "alpha_cn 1"},
+                                        {0, 1, Tension::spring, 60, "alpha_cn 1, the dashpot may pull"}};
+  for (const Damping& damping : offered) {
+    grains::Params p;
+    p.stiffness = 5500;
+    p.restitution = damping.restitution;
+    p.damping = damping.alpha;
+    p.tension = damping.tension;
+    p.steps_per_contact = damping.steps;
+    p.length = 0.0848;
+    p.count = 480;
+    const RestRun run = run_rest(p);
+    Row row{fmt::format("bed at rest, {}, {} steps a contact: mean speed", damping.name, damping.steps),
+            run.mean_speed,
+            "m/s",
+            0,
+            1e-5,
+            "asked for"};
+    row.setup = fmt::format(
+        "480 grains, 2 mm +- 5 %, friction 0.55, 5500 N/m, on a plane, settled; largest mean speed 10000 to 20000 "
+        "steps "
+        "later; {}, {} steps a contact",
+        damping.name, damping.steps);
+    row.seconds = run.seconds;
+    book.add(row);
+  }
+}
+
+void heaps(Book& book) {
+  constexpr int seeds = 4;
+  report::Chart chart{{"distance from the middle [m]"}, {"surface [m]"}, {}, 720, 320};
+  double before = 0;
+  std::size_t k = 0;
+  for (const double friction : {0.1, 0.3, 0.5}) {
+    double mean = 0, square = 0, seconds = 0;
+    report::Curve curve{fmt::format("friction {}", friction), colours[k++], {}, {}};
+    for (unsigned seed = 1; seed <= seeds; ++seed) {
+      const HeapRun run = run_heap({.friction = friction, .seed = seed});
+      mean += run.angle() / seeds, square += run.angle() * run.angle() / seeds, seconds += run.seconds;
+      curve.x = run.x;
+      curve.y.resize(run.x.size());
+      for (std::size_t n = 0; n < run.x.size(); ++n) curve.y[n] += run.surface[n] / seeds;
+    }
+    chart.curves.push_back(curve);
+    const std::string setup = fmt::format(
+        "800 grains, 2 mm +- 30 %, friction {}, sunk at 0.15 m/s onto a floor of grains, at rest without a fluid; mean "
+        "of {} seeds",
+        friction, seeds);
+    Row angle{fmt::format("heap, friction {}: slope", friction), mean, "degrees"};
+    angle.low = before, angle.high = 30, angle.reference = "steeper than with less friction, below real sand";
+    Row spread{fmt::format("heap, friction {}: standard error of the slope", friction),
+               std::sqrt(std::max(0.0, square - mean * mean) / (seeds - 1)), "degrees"};
+    for (Row* row : {&angle, &spread}) {
+      row->setup = setup, row->seconds = seconds;
+      book.add(*row);
+    }
+    before = mean;
+  }
+  book.draw("heaps", chart);
+}
+
+}  // namespace
+
+Result grains(const Tell& tell) {
+  Book book{{}, tell};
+  oblique_impacts(book);
+  colliding_grains(book);
+  rest(book);
+  heaps(book);
+  return book.result;
+}
+
+}  // namespace livebed::validate
