@@ -45,7 +45,7 @@ grains::Params read_params(const json& job) {
 }
 
 json told(const grains::Contact& c) {
-  return {{"k_n", c.k_n}, {"k_s", c.k_s}, {"eta_n", c.eta_n}, {"eta_s", c.eta_s}, {"mu", c.mu}};
+  return {{"k_n", c.k_n}, {"k_s", c.k_s}, {"eta_n", c.eta_n}, {"eta_s", c.shear * c.eta_n}, {"mu", c.mu}};
 }
 
 /// Rows of id, d, x, y, u, v, omega in the order of the ids.
@@ -83,8 +83,8 @@ json run(const json& job) {
           {"mass", grains::mass(p, p.diameter)},
           {"gravity", grains::submerged_gravity(p)},
           {"step", p.step},
-          {"pair", told(grains::contact(p, 1))},
-          {"wall", told(grains::contact(p, p.wall_factor))},
+          {"pair", told(grains::pair_contact(p))},
+          {"wall", told(grains::wall_contact(p, p.bottom))},
           {"looks", looks}};
 }
 

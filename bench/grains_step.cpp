@@ -1,6 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "base/loops.hpp"
+#include "grains/kernels.hpp"
 #include "grains/measures.hpp"
 #include "grains/packing.hpp"
 
@@ -47,6 +48,25 @@ void step(benchmark::State& state) {
 BENCHMARK(step)
     ->ArgNames({"grains", "threads"})
     ->ArgsProduct({{6240, 199680}, {1, 2}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// The same with the kernels of other instruction sets: 0 is the widest this machine has.
+void kernels(benchmark::State& state) {
+  const auto names = kernel_names();
+  const auto which = static_cast<std::size_t>(state.range(1));
+  if (which >= names.size()) return state.SkipWithError("this machine has no such set");
+  use_kernels(names[which]);
+  Bed bed = bed_of(static_cast<int>(state.range(0)));
+  const int steps = 50;
+  for ([[maybe_unused]] auto pass : state) advance(bed, steps);
+  report(state, bed, static_cast<double>(steps * state.iterations()));
+  state.SetLabel(std::string(names[which]));
+  use_kernels(names.front());
+}
+BENCHMARK(kernels)
+    ->ArgNames({"grains", "set"})
+    ->ArgsProduct({{6240, 199680}, {0, 1, 2}})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 

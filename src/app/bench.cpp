@@ -11,6 +11,7 @@
 #include "base/version.hpp"
 #include "flow/mapping.hpp"
 #include "flow/profiles.hpp"
+#include "grains/kernels.hpp"
 #include "grains/measures.hpp"
 #include "grains/packing.hpp"
 #include "io/file.hpp"
@@ -102,7 +103,7 @@ nlohmann::ordered_json bench_flow(double cells) {
 void write_bed(const grains::Bed& bed, const std::string& path) {
   const grains::Params& p = bed.params;
   const auto told = [](const grains::Contact& c) -> nlohmann::ordered_json {
-    return {{"k_n", c.k_n}, {"k_s", c.k_s}, {"eta_n", c.eta_n}, {"eta_s", c.eta_s}, {"mu", c.mu}};
+    return {{"k_n", c.k_n}, {"k_s", c.k_s}, {"eta_n", c.eta_n}, {"eta_s", c.shear * c.eta_n}, {"mu", c.mu}};
   };
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   const grains::State& s = bed.state;
@@ -114,8 +115,8 @@ void write_bed(const grains::Bed& bed, const std::string& path) {
   j["step"] = p.step;
   j["length"] = p.length;
   j["diameter"] = p.diameter;
-  j["pair"] = told(grains::contact(p, 1));
-  j["wall"] = told(grains::contact(p, p.wall_factor));
+  j["pair"] = told(grains::pair_contact(p));
+  j["wall"] = told(grains::wall_contact(p, p.bottom));
   j["grains"] = std::move(rows);
   io::write_atomically(path, j.dump());
 }
@@ -146,6 +147,7 @@ nlohmann::ordered_json bench_grains(int count, const std::string& bed_file) {
   nlohmann::ordered_json j;
   j["grains"] = bed.state.count();
   j["threads"] = base::threads();
+  j["kernels"] = grains::kernels().name;
   j["grain_steps_per_second"] = steps_a_list * static_cast<double>(bed.state.count()) / times[times.size() / 2];
   j["contacts_per_grain"] = grains::measure_contacts(bed).per_grain;
   j["bed_height"] = grains::bed_height(bed.state);

@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "base/loops.hpp"
 #include "base/version.hpp"
 #include "case/faults.hpp"
+#include "grains/kernels.hpp"
 
 namespace {
 
@@ -41,6 +43,12 @@ int run(int argc, char** argv) {
           "--threads", threads,
           "threads to compute on (1); more pay from some 100,000 cells or grains on; results do not depend on it")
       ->envname("LIVEBED_THREADS");
+  std::string kernels{grains::kernels().name};
+  program
+      .add_option(
+          "--kernels", kernels,
+          fmt::format("instruction set of the grain loop ({}): {}", kernels, fmt::join(grains::kernel_names(), ", ")))
+      ->envname("LIVEBED_KERNELS");
 
   app::Action chosen;
   app::add_new(program, chosen);
@@ -59,6 +67,7 @@ int run(int argc, char** argv) {
     return static_cast<int>(program.exit(error) == 0 ? Exit::ok : Exit::command_line);
   }
   base::set_threads(threads);
+  grains::use_kernels(kernels);
   return static_cast<int>(chosen());
 }
 

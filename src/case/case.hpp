@@ -38,6 +38,7 @@ struct Case {
   double d10 = 0, d50 = 0, d90 = 0;  ///< 10, 50 and 90 % of the mass of the sand are finer [m]; 0: not given by these
   std::string grading;               ///< sieve curve as written: "0.2 mm: 10 %, 0.36 mm: 50 %"; empty: none
   double bed_thickness = 0.05;       ///< [m], level of the bed: nominal until the packing has shown the true one
+  std::string walls;                 ///< for the grains, as written (walls.hpp)
   double measured_level = 0;         ///< [m], that true one; 0 before the packing
 
   /// Where one key can stand for another (current.theta or current.mean_speed, ...): the ones the case was given by.

@@ -7,6 +7,7 @@
 #include "base/fault.hpp"
 #include "base/math.hpp"
 #include "case/units.hpp"
+#include "case/walls.hpp"
 #include "flow/profiles.hpp"
 #include "grains/laws.hpp"
 #include "grains/sizes.hpp"
@@ -159,6 +160,7 @@ void derive(Case& c) {
   c.grains.fluid_density = c.flow.density;
   c.grains.length = c.flow.mesh.length;
   derive_sizes(c);
+  c.grains.walls = read_walls(c.walls).lines;
   derive_bed(c);
   derive_current(c);
   flow::PipeParams& pipe = c.flow.pipe;
@@ -211,6 +213,8 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
       .fault_if(c.grains.density <= c.flow.density,
                 "grains.density = {} kg/m3 does not sink in water of flow.density = {} kg/m3", c.grains.density,
                 c.flow.density);
+  const std::string walls_fault = read_walls(c.walls).fault;
+  keys({"bed.walls"}).fault_if(!walls_fault.empty(), "bed.walls: {}", walls_fault);
   keys({"grains.diameter", "mesh.length"})
       .fault_if(d > mesh.length / 10, "grains.diameter = {} m leaves fewer than 10 grains in mesh.length = {} m", d,
                 mesh.length);

@@ -226,6 +226,13 @@ void add_bed(std::vector<Row>& s) {
                                   {{"grains", grains::Floor::grains}, {"plane", grains::Floor::plane}})
                   .says("the bottom of the bed: a row of fixed grains or a smooth plane")
                   .from("Sec. 4.3"));
+  s.push_back(
+      flag("bed.side_walls", grains(&G::side_walls))
+          .says("walls for the grains at both ends of the box instead of the period; the water does not see them"));
+  s.push_back(
+      text("bed.walls", at(&Case::walls))
+          .says("further walls for the grains: points \"x y\" in m with commas, lines with semicolons between, as in "
+                "\"0.1 0.3, 0.1 0; 0.2 0.1, 0.3 0.2\"; the water does not see them"));
   s.push_back(integer("bed.seed", grains(&G::seed))
                   .within(0, 4294967295.0)
                   .says("of the diameters and of the lattice's small shifts"));
@@ -298,6 +305,33 @@ void add_contact(std::vector<Row>& s) {
                   .within(0.1, 10)
                   .says("stiffness, damping and friction of walls over those of grains")
                   .from("Eq. 28"));
+  s.push_back(
+      word<grains::Law>("contact.law", grains(&G::law), {{"paper", grains::Law::paper}, {"hooke", grains::Law::hooke}})
+          .says("dashpots: one constant for all pairs, or by the reduced mass of the pair, so that any two sizes "
+                "rebound alike")
+          .from("Eq. 27: paper"));
+  s.push_back(real("contact.rolling_friction", "-", grains(&G::rolling_friction))
+                  .within(0, 2)
+                  .says("mu_r of an elastic-plastic resistance to rolling; 0: none")
+                  .from("none"));
+  s.push_back(real("contact.rolling_damping", "-", grains(&G::rolling_damping))
+                  .within(0, 1)
+                  .says("dashpot of that resistance over its critical damping"));
+  const auto factor = [&](std::string name, grains::WallFactors G::*wall, double grains::WallFactors::*of,
+                          std::string what) {
+    s.push_back(real(std::move(name), "-", at(&Case::grains, wall, of))
+                    .within(-1, 100)
+                    .says(what + " over that between grains; negative: contact.wall_factor"));
+  };
+  using W = grains::WallFactors;
+  factor("contact.pipe_stiffness", &G::pipe, &W::stiffness, "spring of the pipe");
+  factor("contact.pipe_damping", &G::pipe, &W::damping, "dashpot of the pipe");
+  factor("contact.pipe_friction", &G::pipe, &W::friction, "friction of the pipe");
+  factor("contact.pipe_rolling", &G::pipe, &W::rolling, "rolling friction of the pipe");
+  factor("contact.bottom_stiffness", &G::bottom, &W::stiffness, "spring of the floor and of other walls");
+  factor("contact.bottom_damping", &G::bottom, &W::damping, "their dashpot");
+  factor("contact.bottom_friction", &G::bottom, &W::friction, "their friction");
+  factor("contact.bottom_rolling", &G::bottom, &W::rolling, "their rolling friction");
   s.push_back(real("contact.gamma", "-", grains(&G::gamma))
                   .within(0.9, 1.1)
                   .says("distance of first contact over the sum of the radii")

@@ -12,10 +12,10 @@ using base::fail;
 namespace {
 
 /// Sorts, lists, and copies the grains into the force loop's records; collects what the old records hold first.
-void renew(Bed& bed) {
+void renew(Bed& bed, const Sweep& constants) {
   bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
   try {
-    rebuild(bed.state, bed.contacts, bed.scratch, reach_of(bed.params), bed.pipe);
+    rebuild(bed.state, bed.contacts, bed.scratch, constants.reach, bed.pipe, constants.walls);
   } catch (const base::Fault& fault) {
     fail(fault.code(), "grain step {} (t = {} s of grain time): {}", bed.steps,
          static_cast<double>(bed.steps) * bed.params.step, fault.what());
@@ -61,7 +61,7 @@ void advance(Bed& bed, int steps) {
   check_count(bed);
   const Sweep constants = make_sweep(bed.params, bed.pipe);
   if (!lists_hold(bed.state, bed.contacts, constants.reach, bed.pipe)) {
-    renew(bed);
+    renew(bed, constants);
   } else {
     fill_records(bed.params, bed.state, bed.contacts, bed.records);
   }
@@ -70,7 +70,7 @@ void advance(Bed& bed, int steps) {
     ++bed.steps;
     if (held) continue;
     read_records(bed.records, bed.state);
-    renew(bed);
+    renew(bed, constants);
   }
   read_records(bed.records, bed.state);
   bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);

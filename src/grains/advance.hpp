@@ -51,6 +51,10 @@ void each_array(BedLike& bed, Visit&& visit) {
       visit("list_spring", c.spring);
   visit("floor_spring", c.wall_spring[slot_floor]), visit("floor_odd_spring", c.wall_spring[slot_floor_odd]);
   visit("pipe_spring", c.wall_spring[slot_pipe]), visit("list_near", c.near);
+  visit("list_rolling", c.rolling), visit("floor_rolling", c.wall_rolling[slot_floor]);
+  visit("floor_odd_rolling", c.wall_rolling[slot_floor_odd]), visit("pipe_rolling", c.wall_rolling[slot_pipe]);
+  visit("wall_first", c.wall_first), visit("wall_piece", c.wall);
+  visit("wall_spring", c.piece_spring), visit("wall_rolling", c.piece_rolling);
   visit("x_built", c.x_built), visit("y_built", c.y_built);
 }
 

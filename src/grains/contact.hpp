@@ -8,6 +8,8 @@
 
 namespace livebed::grains {
 
+constexpr double far_away = 1e9;  ///< where nobody is [m]
+
 /// What a grain shows to its neighbours, packed so that one load fetches it.
 struct Place {
   double x, y;  ///< centre [m]
@@ -42,13 +44,15 @@ struct Records {
 /// The constants of a step.
 struct Sweep {
   int count;  ///< of grains
-  Contact pair, wall;
+  Law law;
+  Contact pair, bottom, pipe_wall;
   Reach reach;
   Floor floor;
   double floor_spacing;  ///< between the fixed grains of the floor [m]
   double gravity;        ///< of a submerged grain, downwards [m/s2]
   double dt;             ///< [s]
   Circle pipe;
+  std::vector<Segment> walls;  ///< further ones
 };
 
 /// Constants from complete parameters (derive).

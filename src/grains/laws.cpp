@@ -1,6 +1,7 @@
 #include "grains/laws.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "base/fault.hpp"
 #include "grains/sizes.hpp"
@@ -56,6 +57,38 @@ double damping_of(double restitution, Tension tension) {
   return high;
 }
 
+Contact pair_contact(const Params& p) {
+  const double shear = 1 / (2 * (1 + p.poisson));  // Eq. 26
+  // Eq. 27 is the dashpot of two equal grains, whose reduced mass is half of one: Hooke's takes it over for any mass.
+  const double alpha = p.damping * 2 * std::sqrt(p.stiffness);
+  const double mass_r3 = mass(p, 2);
+  return {.k_n = p.stiffness,
+          .k_s = shear * p.stiffness,
+          .eta_n = p.law == Law::hooke ? alpha * std::sqrt(2.0) : alpha * std::sqrt(mass(p, p.diameter)),
+          .shear = shear,
+          .mu = p.friction,
+          .dt = p.step,
+          .pull = p.tension == Tension::none ? 0.0 : -std::numeric_limits<double>::infinity(),
+          .limit_on_spring = p.friction_limit == FrictionLimit::spring_force,
+          .mu_r = p.rolling_friction,
+          .k_r = 2.25 * p.stiffness * base::square(p.rolling_friction),
+          .eta_r = 2 * p.rolling_damping,
+          .mass_r3 = mass_r3,
+          .inertia_r5 = (inertia_factor(p.inertia) + 1) * mass_r3};
+}
+
+Contact wall_contact(const Params& p, const WallFactors& factors) {
+  Contact c = pair_contact(p);
+  c.k_n *= factors.stiffness;
+  c.k_s *= factors.stiffness;
+  // The paper multiplies the dashpot itself.  Hooke's keeps the restitution of a wall apart from its stiffness.
+  c.eta_n *= factors.damping * (p.law == Law::hooke ? std::sqrt(factors.stiffness) : 1.0);
+  c.mu *= factors.friction;
+  c.mu_r *= factors.rolling;
+  c.k_r *= factors.stiffness * base::square(factors.rolling);
+  return c;
+}
+
 Params derive(Params p) {
   if (!p.grading.empty()) {
     check_grading(p.grading);
@@ -68,6 +101,10 @@ Params derive(Params p) {
   require(p.steps_per_contact > 4, "contact.steps", p.steps_per_contact, "more than 4");
   require(p.skin > 0, "contact.skin", p.skin, "it is above 0");
   require(p.gamma > 0, "contact.gamma", p.gamma, "it is above 0");
+  require(p.rolling_friction >= 0, "contact.rolling_friction", p.rolling_friction, "it is not negative");
+  for (WallFactors* wall : {&p.pipe, &p.bottom})
+    for (double* factor : {&wall->stiffness, &wall->damping, &wall->friction, &wall->rolling})
+      if (*factor < 0) *factor = p.law == Law::hooke && factor == &wall->damping ? 1.0 : p.wall_factor;
   const double m = mass(p, smallest_diameter(p));  // the smallest grains swing fastest
 
   if (p.stiffness <= 0 && p.step <= 0) {

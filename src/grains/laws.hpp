@@ -1,6 +1,4 @@
 #pragma once
-#include <limits>
-
 #include "base/math.hpp"
 #include "grains/lanes.hpp"
 #include "grains/params.hpp"
@@ -43,26 +41,26 @@ Params derive(Params given);
 /// Constants of one kind of contact.
 struct Contact {
   double k_n, k_s;       ///< springs [N/m]
-  double eta_n, eta_s;   ///< dashpots [N s/m]
+  double eta_n;          ///< dashpot [N s/m], or over the root of the reduced mass [N s/m/kg^(1/2)] (Law::hooke)
+  double shear;          ///< k_s/k_n and eta_s/eta_n [-] (Eq. 26)
   double mu;             ///< friction [-]
-  double dt;             ///< step over which the tangential spring grows [s]
+  double dt;             ///< step over which springs grow [s]
   double pull;           ///< lowest total normal force allowed [N]: 0, or minus infinity when the dashpot may pull
   bool limit_on_spring;  ///< friction bounded by mu e_n instead of mu f_n
+  double mu_r;           ///< rolling friction [-]
+  double k_r;            ///< rolling spring over the square of the rolling radius [N/m]
+  double eta_r;          ///< rolling dashpot over the root of inertia times rolling spring [-]
+  double mass_r3;        ///< mass of a grain over the cube of its radius [kg/m3]
+  double inertia_r5;     ///< its moment of inertia about a point of its surface over radius^5 [kg/m3]
 };
 
-/// Contact between two grains (factor 1) or of a grain with a wall (factor = wall_factor, Eq. 28).  p is complete.
-inline Contact contact(const Params& p, double factor) {
-  const double shear = 1 / (2 * (1 + p.poisson));                                     // Eq. 26
-  const double eta_n = p.damping * 2 * std::sqrt(mass(p, p.diameter) * p.stiffness);  // Eq. 27
-  return {.k_n = factor * p.stiffness,
-          .k_s = factor * shear * p.stiffness,
-          .eta_n = factor * eta_n,
-          .eta_s = factor * shear * eta_n,
-          .mu = factor * p.friction,
-          .dt = p.step,
-          .pull = p.tension == Tension::none ? 0.0 : -std::numeric_limits<double>::infinity(),
-          .limit_on_spring = p.friction_limit == FrictionLimit::spring_force};
-}
+/// Contact between two grains.  p is complete (derive).
+Contact pair_contact(const Params& p);
+/// Contact of a grain with a wall; factors are complete.
+Contact wall_contact(const Params& p, const WallFactors& factors);
+
+// The laws are written once for `double` and for `Lanes`; see lanes.hpp for the namespace.
+inline namespace LIVEBED_SET {
 
 /// Forces of one contact [N].
 template <class Real>
@@ -73,19 +71,63 @@ struct ContactForce {
 };
 
 /// Eq. 20-24 for a pair that overlaps.  overlap [m] > 0; closing: its rate [m/s]; slip: tangential velocity of the
-/// other surface relative to ours [m/s]; spring: e_s of the last step [N].  The incremental e_n of Eq. 21 is k_n
-/// overlap. Sliding bounds the total f_s and the stored e_s alike: a spring that went on growing would push for long
-/// after the slip has turned.
-template <class Real>
-inline ContactForce<Real> contact_force(const Contact& c, const Real& overlap, const Real& closing, const Real& slip,
-                                        const Real& spring) {
+/// other surface relative to ours [m/s]; spring: e_s of the last step [N]; eta_n: normal dashpot of the pair [N s/m].
+/// The incremental e_n of Eq. 21 is k_n overlap.  Sliding bounds the total f_s and the stored e_s alike: a spring that
+/// went on growing would push for long after the slip has turned.
+template <class Real, class Dashpot>
+inline ContactForce<Real> contact_force(const Contact& c, const Dashpot& eta_n, const Real& overlap,
+                                        const Real& closing, const Real& slip, const Real& spring) {
   const Real zero = Real{};
   const Real e_n = c.k_n * overlap;
-  const Real f_n = larger<Real>(e_n + c.eta_n * closing, zero + c.pull);
+  const Real f_n = larger<Real>(e_n + eta_n * closing, zero + c.pull);
   const Real limit = c.mu * (c.limit_on_spring ? e_n : larger<Real>(f_n, zero));
   const Real e_s = larger<Real>(smaller<Real>(spring + c.k_s * c.dt * slip, limit), -limit);
-  const Real f_s = larger<Real>(smaller<Real>(e_s + c.eta_s * slip, limit), -limit);
+  const Real f_s = larger<Real>(smaller<Real>(e_s + c.shear * eta_n * slip, limit), -limit);
   return {f_n, f_s, e_s};
 }
+
+/// What the mass and the size of the two in contact decide.  A wall has neither: then it is the grain's own.
+template <class Real>
+struct Reduced {
+  Real mass;     ///< [kg]
+  Real radius;   ///< [m]
+  Real inertia;  ///< about the point of contact [kg m2]
+};
+/// Of two grains.  Made of the sum and the product of the radii alone, so that both see the same bits.
+template <class Real>
+inline Reduced<Real> reduced_of_pair(const Contact& c, const Real& r, const Real& other) {
+  const Real s = r + other, p = r * other, s2 = s * s, p2 = p * p;
+  return {c.mass_r3 * (p2 * p) / (s * (s2 - 3.0 * p)), p / s,
+          c.inertia_r5 * (p2 * p2 * p) / (s * (s2 * s2 - 5.0 * (s2 * p) + 5.0 * p2))};
+}
+template <class Real>
+inline Reduced<Real> reduced_at_wall(const Contact& c, const Real& r) {
+  const Real cube = r * r * r;
+  return {c.mass_r3 * cube, r, c.inertia_r5 * (cube * r * r)};
+}
+
+/// Rolling resistance of one contact [N m].
+template <class Real>
+struct RollingMoment {
+  Real moment;  ///< on the first of the two, counter-clockwise
+  Real spring;  ///< to be kept for the next step
+};
+
+/// Elastic-plastic spring and dashpot against rolling, type C of Ai, Chen, Rotter and Ooi (2011), Powder Technology
+/// 206, 269: spring k_r = 2.25 k_n mu_r^2 R^2, bounded by mu_r R f_n, and a dashpot while it is not at that bound.
+/// rate: spin of the first minus spin of the other [1/s]; normal: f_n [N].
+template <class Real>
+inline RollingMoment<Real> rolling_moment(const Contact& c, const Reduced<Real>& reduced, const Real& normal,
+                                          const Real& rate, const Real& spring) {
+  const Real zero = Real{};
+  const Real k = c.k_r * (reduced.radius * reduced.radius);
+  const Real limit = c.mu_r * (reduced.radius * larger<Real>(normal, zero));
+  const Real free = spring - k * (c.dt * rate);
+  const Real kept = larger<Real>(smaller<Real>(free, limit), -limit);
+  const Real damped = c.eta_r * root(reduced.inertia * k) * rate;
+  return {select(free > limit, kept, select(free < -limit, kept, kept - damped)), kept};
+}
+
+}  // namespace LIVEBED_SET
 
 }  // namespace livebed::grains

@@ -77,7 +77,7 @@ ContactMeasures measure_contacts(const Bed& bed) {
   double sum = 0, largest = 0;
   for (int i = 0; i < s.count(); ++i) {
     for (const int j : neighbours_of(s, bed.contacts, i)) {
-      const double dx = nearest_image(s.x[j] - s.x[i], p.length), dy = s.y[j] - s.y[i];
+      const double dx = nearest_image(s.x[j] - s.x[i], period(p)), dy = s.y[j] - s.y[i];
       const double overlap = 0.5 * p.gamma * (s.diameter[i] + s.diameter[j]) - std::sqrt(dx * dx + dy * dy);
       if (overlap <= 0) continue;
       ++touching;

@@ -7,6 +7,7 @@
 #include "base/fault.hpp"
 #include "base/loops.hpp"
 #include "base/math.hpp"
+#include "grains/kernels.hpp"
 
 namespace livebed::grains {
 
@@ -16,21 +17,15 @@ using base::square;
 
 namespace {
 
-constexpr int most_neighbours = 32;  ///< a plane packing has about six; a grain with nearly that many lies on others
-constexpr int window = 64;           ///< grains that are sorted by the number of their contacts among each other
-/// Pairs within this factor of touching come first in a list: what touches, or will soon.
-constexpr double close_by = 1.005;
+constexpr int window = 64;  ///< grains that are sorted by the number of their contacts among each other
 
-/// Cells of at least one reach, numbered column by column.  The lowest and the highest row are open: a grain that flies
-/// far away costs no memory.
-struct Cells {
-  int columns, rows;
-  double width, height, bottom;
-  int column(double x) const { return std::clamp(static_cast<int>(x / width), 0, columns - 1); }
-  int row(double y) const {
-    return static_cast<int>(std::clamp(std::floor((y - bottom) / height), 0.0, static_cast<double>(rows - 1)));
-  }
-};
+int column_of(const Cells& cells, double x) {
+  return std::clamp(static_cast<int>(x / cells.width), 0, cells.columns - 1);
+}
+int row_of(const Cells& cells, double y) {
+  return static_cast<int>(
+      std::clamp(std::floor((y - cells.bottom) / cells.height), 0.0, static_cast<double>(cells.rows - 1)));
+}
 
 void check_places(const State& s, double length) {
   for (int i = 0; i < s.count(); ++i) {
@@ -70,7 +65,7 @@ void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch&
   w.old_of_rank.resize(n);
   w.cell_start.assign(count + 1, 0);
   for (int i = 0; i < n; ++i) {
-    w.cell[i] = cells.column(s.x[i]) * cells.rows + cells.row(s.y[i]);
+    w.cell[i] = column_of(cells, s.x[i]) * cells.rows + row_of(cells, s.y[i]);
     ++w.cell_start[w.cell[i] + 1];
   }
   std::partial_sum(w.cell_start.begin(), w.cell_start.end(), w.cell_start.begin());
@@ -86,51 +81,6 @@ void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch&
     w.y[rank] = s.y[i];
     w.touching[rank] = 0.5 * gamma * s.diameter[i];
   }
-}
-
-/// The two or three different columns around column c of a periodic row of columns.
-int columns_around(int c, int columns, int around[3]) {
-  if (columns < 3) {
-    for (int k = 0; k < columns; ++k) around[k] = k;
-    return columns;
-  }
-  around[0] = c == 0 ? columns - 1 : c - 1;
-  around[1] = c;
-  around[2] = c == columns - 1 ? 0 : c + 1;
-  return 3;
-}
-
-/// Neighbours of the grain of this rank into w.found, those close by first, and their numbers; one more than
-/// most_neighbours stands for too many.
-void find(const Cells& cells, const Reach& reach, int rank, ListScratch& w) {
-  std::int32_t* const close = w.found.data() + static_cast<std::ptrdiff_t>(rank) * most_neighbours;
-  std::int32_t apart[most_neighbours];
-  int n_close = 0, n_apart = 0;
-  const double x = w.x[rank], y = w.y[rank], touching = w.touching[rank];
-  const int row = cells.row(y), low = std::max(0, row - 1), high = std::min(cells.rows - 1, row + 1);
-  int around[3];
-  const int n_around = columns_around(cells.column(x), cells.columns, around);
-  for (int k = 0; k < n_around; ++k) {
-    const int base = around[k] * cells.rows;
-    const int end = w.cell_start[base + high + 1];
-    for (int j = w.cell_start[base + low]; j < end; j += lanes) {
-      const Lanes contact = touching + load(&w.touching[j]);
-      const Lanes dx = nearest_image<Lanes>(load(&w.x[j]) - x, reach.length), dy = load(&w.y[j]) - y;
-      const Lanes d2 = dx * dx + dy * dy, far = contact + reach.skin;
-      unsigned here = bits(d2 <= far * far) & ((1u << std::min(lanes, end - j)) - 1);
-      if (rank >= j && rank < j + lanes) here &= ~(1u << (rank - j));
-      const unsigned near = bits(d2 < base::square(close_by) * contact * contact);
-      if (n_close + n_apart + lanes > most_neighbours) {
-        w.found_all[rank] = most_neighbours + 1;
-        return;
-      }
-      n_close += append_lanes(close + n_close, j, here & near);
-      n_apart += append_lanes(apart + n_apart, j, here & ~near);
-    }
-  }
-  std::copy(apart, apart + n_apart, close + n_close);
-  w.found_close[rank] = n_close;
-  w.found_all[rank] = n_close + n_apart;
 }
 
 /// The final order of one window of ranks: by the number of pairs close by, then of all pairs.  Slices then hold grains
@@ -156,6 +106,7 @@ void sort_window(int begin, int end, ListScratch& w) {
 }
 
 void reorder(Array& a, ListScratch& w) {
+  if (a.empty()) return;
   w.values.resize(a.size());
   for (std::size_t k = 0; k < w.old_of_new.size(); ++k) w.values[k] = a[w.old_of_new[k]];
   a.swap(w.values);
@@ -166,14 +117,15 @@ void reorder_all(State& s, Contacts& c, ListScratch& w) {
                    &s.fluid.fy, &s.impulse_x, &s.impulse_y}) {
     reorder(*a, w);
   }
-  for (Array& a : c.wall_spring) reorder(a, w);
+  for (auto* walls : {&c.wall_spring, &c.wall_rolling})
+    for (Array& a : *walls) reorder(a, w);
   w.ids.resize(s.id.size());
   for (std::size_t k = 0; k < s.id.size(); ++k) w.ids[k] = s.id[w.old_of_new[k]];
   s.id.swap(w.ids);
 }
 
 /// Row numbers of every slice: as many as its longest list, of these as many at the front as pairs close by.
-void count_rows(const State& s, Contacts& c, const ListScratch& w) {
+void count_rows(const State& s, Contacts& c, const ListScratch& w, bool rolling) {
   const int n = s.count(), slices = (n + lanes - 1) / lanes;
   c.first.resize(slices + 1);
   c.first_apart.resize(slices);
@@ -196,6 +148,7 @@ void count_rows(const State& s, Contacts& c, const ListScratch& w) {
   }
   c.neighbour.resize(static_cast<std::size_t>(c.first[slices]) * lanes);
   c.spring.resize(c.neighbour.size());
+  c.rolling.resize(rolling ? c.neighbour.size() : 0);
 }
 
 /// Rows of a slice: slot s of lane l is the s-th neighbour of that grain.
@@ -204,6 +157,7 @@ void fill_rows(int slice, int n, Contacts& c, const ListScratch& w) {
   const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(c.first[slice + 1]) * lanes;
   std::fill(c.neighbour.begin() + begin, c.neighbour.begin() + end, nobody(n));
   std::fill(c.spring.begin() + begin, c.spring.begin() + end, 0.0);
+  if (!c.rolling.empty()) std::fill(c.rolling.begin() + begin, c.rolling.begin() + end, 0.0);
   for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
     const int rank = w.rank_of_new[i];
     const std::int32_t* const found = w.found.data() + static_cast<std::ptrdiff_t>(rank) * most_neighbours;
@@ -222,11 +176,13 @@ void carry_springs(int slice, int n, Contacts& c, const ListScratch& w) {
     const int old = w.old_of_new[i], old_slice = old / lanes;
     for (int row = w.first_before[old_slice]; row < w.first_before[old_slice + 1]; ++row) {
       const std::ptrdiff_t old_slot = static_cast<std::ptrdiff_t>(row) * lanes + old % lanes;
-      if (w.spring_before[old_slot] == 0) continue;
+      if (w.spring_before[old_slot] == 0 && (w.rolling_before.empty() || w.rolling_before[old_slot] == 0)) continue;
       const std::int32_t other = w.new_of_old[w.neighbour_before[old_slot]];
       for (int s = 0; s < close; ++s) {
         const std::ptrdiff_t slot = begin + s * lanes + i % lanes;
-        if (c.neighbour[slot] == other) c.spring[slot] = w.spring_before[old_slot];
+        if (c.neighbour[slot] != other) continue;
+        c.spring[slot] = w.spring_before[old_slot];
+        if (!c.rolling.empty() && !w.rolling_before.empty()) c.rolling[slot] = w.rolling_before[old_slot];
       }
     }
   }
@@ -246,9 +202,76 @@ std::uint8_t near_what(const State& s, int slice, const Reach& reach, double lis
   return near;
 }
 
+/// Which pieces of walls reach into which column of cells: those of column k are wall_in_column[wall_start[k]] and on.
+void sort_walls(const std::vector<Segment>& walls, const Cells& cells, double reach, ListScratch& w) {
+  w.wall_start.assign(cells.columns + 1, 0);
+  const auto columns_of = [&](const Segment& piece) {
+    const auto [low, high] = std::minmax({piece.x, piece.x + piece.ex});
+    return std::pair{column_of(cells, std::max(0.0, low - reach)), column_of(cells, std::max(0.0, high + reach))};
+  };
+  for (const Segment& piece : walls) {
+    const auto [low, high] = columns_of(piece);
+    for (int k = low; k <= high; ++k) ++w.wall_start[k + 1];
+  }
+  std::partial_sum(w.wall_start.begin(), w.wall_start.end(), w.wall_start.begin());
+  w.wall_in_column.resize(w.wall_start.back());
+  std::vector<std::int32_t> next(w.wall_start.begin(), w.wall_start.end() - 1);
+  for (std::size_t n = 0; n < walls.size(); ++n) {
+    const auto [low, high] = columns_of(walls[n]);
+    for (int k = low; k <= high; ++k) w.wall_in_column[next[k]++] = static_cast<std::int32_t>(n);
+  }
+}
+
+/// Lists and histories of the contacts with pieces of walls, in the form of those with grains.
+void list_walls(const State& s, Contacts& c, ListScratch& w, const Reach& reach, const Cells& cells,
+                const std::vector<Segment>& walls) {
+  const int n = s.count(), slices = c.slices();
+  w.wall_first_before.swap(c.wall_first);
+  w.wall_before.swap(c.wall);
+  w.piece_spring_before.swap(c.piece_spring);
+  w.piece_rolling_before.swap(c.piece_rolling);
+  c.wall_first.assign(slices + 1, 0);
+  c.wall.clear();
+  sort_walls(walls, cells, 0.5 * reach.gamma * *std::max_element(s.diameter.begin(), s.diameter.end()) + reach.skin, w);
+  for (int slice = 0; slice < slices; ++slice) {
+    const std::size_t begin = c.wall.size();
+    for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
+      const int column = column_of(cells, s.x[i]);
+      std::size_t slot = begin + i % lanes;
+      for (int k = w.wall_start[column]; k < w.wall_start[column + 1]; ++k) {
+        const Segment& piece = walls[w.wall_in_column[k]];
+        const double t = std::clamp(piece.along(s.x[i], s.y[i]), 0.0, 1.0);
+        const double d2 = square(piece.x + t * piece.ex - s.x[i]) + square(piece.y + t * piece.ey - s.y[i]);
+        if (d2 > square(0.5 * reach.gamma * s.diameter[i] + reach.skin)) continue;
+        if (slot >= c.wall.size()) c.wall.resize(c.wall.size() + lanes, -1);
+        c.wall[slot] = w.wall_in_column[k];
+        slot += lanes;
+      }
+    }
+    c.wall_first[slice + 1] = static_cast<std::int32_t>(c.wall.size() / lanes);
+    if (c.wall.size() > begin) c.near[slice] |= near_wall;
+  }
+  c.piece_spring.assign(c.wall.size(), 0.0);
+  c.piece_rolling.assign(reach.rolling ? c.wall.size() : 0, 0.0);
+  if (w.wall_before.empty()) return;
+  for (int i = 0; i < n; ++i) {
+    const int old = w.old_of_new[i];
+    for (int row = w.wall_first_before[old / lanes]; row < w.wall_first_before[old / lanes + 1]; ++row) {
+      const std::size_t old_slot = static_cast<std::size_t>(row) * lanes + old % lanes;
+      for (int other = c.wall_first[i / lanes]; other < c.wall_first[i / lanes + 1]; ++other) {
+        const std::size_t slot = static_cast<std::size_t>(other) * lanes + i % lanes;
+        if (c.wall[slot] < 0 || c.wall[slot] != w.wall_before[old_slot]) continue;
+        c.piece_spring[slot] = w.piece_spring_before[old_slot];
+        if (reach.rolling && !w.piece_rolling_before.empty()) c.piece_rolling[slot] = w.piece_rolling_before[old_slot];
+      }
+    }
+  }
+}
+
 }  // namespace
 
-void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Circle& pipe) {
+void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Circle& pipe,
+             const std::vector<Segment>& walls) {
   check_places(s, reach.length);
   const int n = s.count(), slices = (n + lanes - 1) / lanes, windows = (n + window - 1) / window;
   if (n == 0) fail(Exit::invalid_case, "bed.count = 0: a bed needs at least one grain");
@@ -256,18 +279,17 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   const double list_reach = reach.gamma * largest + reach.skin;
   const Cells cells = make_cells(s, list_reach, reach.length);
   for (Array& a : c.wall_spring) a.resize(nobody(n), 0.0);
+  for (Array& a : c.wall_rolling) a.resize(reach.rolling ? nobody(n) : 0, 0.0);
 
   rank_by_cell(s, cells, reach.gamma, w);
   w.found.resize(static_cast<std::size_t>(n) * most_neighbours);
   for (auto* a : {&w.found_close, &w.found_all, &w.old_of_new, &w.new_of_old, &w.rank_of_new, &w.new_of_rank}) {
     a->resize(n);
   }
+  const auto find = kernels().find;
   base::for_each_item(0, windows, [&](int k) {
     const int begin = k * window, end = std::min(n, begin + window);
-    for (int rank = begin; rank < end; ++rank) {
-      w.found_close[rank] = 0;
-      find(cells, reach, rank, w);
-    }
+    find(cells, reach, begin, end, w);
     sort_window(begin, end, w);
   });
   reorder_all(s, c, w);
@@ -275,13 +297,15 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   w.first_before.swap(c.first);
   w.neighbour_before.swap(c.neighbour);
   w.spring_before.swap(c.spring);
-  count_rows(s, c, w);
+  w.rolling_before.swap(c.rolling);
+  count_rows(s, c, w, reach.rolling);
   c.near.resize(slices);
   base::for_each_item(0, slices, [&](int slice) {
     fill_rows(slice, n, c, w);
     if (!w.first_before.empty()) carry_springs(slice, n, c, w);
     c.near[slice] = near_what(s, slice, reach, list_reach, pipe);
   });
+  if (!walls.empty() || !c.wall.empty()) list_walls(s, c, w, reach, cells, walls);
   c.x_built = s.x;
   c.y_built = s.y;
   c.pipe_built = pipe;

@@ -6,6 +6,7 @@
 #include "grains/lanes.hpp"
 #include "grains/params.hpp"
 #include "grains/state.hpp"
+#include "grains/walls.hpp"
 
 /// Who may touch whom until some grain has moved half a skin, and what each contact remembers.
 ///
@@ -16,7 +17,7 @@
 namespace livebed::grains {
 
 /// What the grains of a slice may meet before the lists are rebuilt; bits of Contacts::near.
-enum Near : std::uint8_t { near_floor = 1, near_pipe = 2, near_seam = 4 };
+enum Near : std::uint8_t { near_floor = 1, near_pipe = 2, near_seam = 4, near_wall = 8 };
 
 /// Slots for what a contact with a wall remembers: a plane, or the even and the odd grains of a floor of grains; the
 /// pipe.
@@ -28,10 +29,15 @@ struct Contacts {
   std::vector<std::int32_t> first_apart;  ///< from this row of a slice on no pair has touched since the lists exist
   base::AlignedVector<std::int32_t> neighbour;  ///< the other grain, row by row; nobody() where a lane has no more
   Array spring;                                 ///< e_s of the same slot [N]
-  std::array<Array, wall_slots> wall_spring;    ///< e_s of each grain with each wall, whole slices [N]
-  std::vector<std::uint8_t> near;               ///< of each slice, bits of Near
-  Array x_built, y_built;                       ///< centres when the lists were built [m]
-  Circle pipe_built;                            ///< and the pipe
+  Array rolling;  ///< rolling spring of the same slot [N m]; empty without rolling resistance
+  std::array<Array, wall_slots> wall_spring;   ///< e_s of each grain with floor and pipe, whole slices [N]
+  std::array<Array, wall_slots> wall_rolling;  ///< rolling springs likewise [N m]
+  std::vector<std::int32_t> wall_first;        ///< as first, for the pieces of walls near a slice
+  std::vector<std::int32_t> wall;              ///< as neighbour: index of the piece, -1 where a lane has no more
+  Array piece_spring, piece_rolling;           ///< of the same slots [N], [N m]
+  std::vector<std::uint8_t> near;              ///< of each slice, bits of Near
+  Array x_built, y_built;                      ///< centres when the lists were built [m]
+  Circle pipe_built;                           ///< and the pipe
   std::int64_t rebuilds = 0;
 
   int slices() const { return static_cast<int>(near.size()); }
@@ -47,9 +53,14 @@ struct ListScratch {
   std::vector<std::int32_t> found, found_close, found_all;  ///< by rank: neighbours (ranks), how many close by, in all
   std::vector<std::int32_t> first_before;
   base::AlignedVector<std::int32_t> neighbour_before;
-  Array spring_before, values;
+  Array spring_before, rolling_before, values;
+  std::vector<std::int32_t> wall_first_before, wall_before, wall_start, wall_in_column;
+  Array piece_spring_before, piece_rolling_before;
   std::vector<std::int32_t> ids;
 };
+
+/// A plane packing has about six; a grain with nearly that many lies on others.
+inline constexpr int most_neighbours = 32;
 
 /// Pairs may touch when their centres are within gamma (r_i + r_j); the lists reach one skin further.
 struct Reach {
@@ -57,15 +68,17 @@ struct Reach {
   double gamma;           ///< [-]
   double skin;            ///< [m]
   double floor_diameter;  ///< of the fixed grains of the floor, 0 for a plane [m]
+  bool rolling = false;   ///< contacts remember rolling, too
 };
 
 inline Reach reach_of(const Params& p) {
-  return {p.length, p.gamma, p.skin * p.diameter, p.floor == Floor::grains ? p.diameter : 0.0};
+  return {period(p), p.gamma, p.skin * p.diameter, p.floor == Floor::grains ? p.diameter : 0.0, p.rolling_friction > 0};
 }
 
 /// The index that stands for "no neighbour" among n grains: one past the last lane of the last slice.
 inline constexpr int nobody(int n) { return (n + lanes - 1) / lanes * lanes; }
 
+inline namespace LIVEBED_SET {
 /// Shortest way from one x to another in the periodic box, for 0 <= x < length.  Odd in dx to the bit.
 template <class Real>
 inline Real nearest_image(const Real& dx, double length) {
@@ -73,11 +86,13 @@ inline Real nearest_image(const Real& dx, double length) {
   const Real back = select(dx > zero + 0.5 * length, zero - length, zero);
   return dx + select(dx < zero - 0.5 * length, zero + length, back);
 }
+}  // namespace LIVEBED_SET
 
 /// Sorts the grains, builds the lists for the present positions and carries every history over.  Throws Fault
 /// (diverged) for a grain that is not finite, outside the box or with more neighbours than space allows, (invalid case)
-/// for a box shorter than two reaches.
-void rebuild(State& state, Contacts& contacts, ListScratch& scratch, const Reach& reach, const Circle& pipe);
+/// for a box shorter than two reaches.  Walls are pieces besides floor and pipe.
+void rebuild(State& state, Contacts& contacts, ListScratch& scratch, const Reach& reach, const Circle& pipe,
+             const std::vector<Segment>& walls = {});
 
 /// True while the lists are complete: no grain and no pipe has moved more than half a skin since they were built.  Two
 /// grains outside each other's lists were then more than one skin apart and cannot have met.

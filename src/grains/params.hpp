@@ -1,5 +1,8 @@
 #pragma once
+#include <string>
 #include <vector>
+
+#include "base/vec2.hpp"
 
 /// Plain parameters of the grains: what a case file says, in SI units.  Filled by `case`, read by `grains`.
 /// Grains are spheres of diameter d whose centres stay in one vertical plane (a slab of thickness b = d).
@@ -7,6 +10,9 @@ namespace livebed::grains {
 
 /// Moment of inertia: a solid sphere, m d^2/10, or the paper's disk, m d^2/8 (Eq. 17).
 enum class Inertia { sphere, disk };
+/// Dashpots of a contact: the paper's, one constant for all pairs (Eq. 27), or Hooke's, which follow the reduced mass
+/// of the pair, so that the restitution is the same for any two sizes and for walls.
+enum class Law { paper, hooke };
 /// May the dashpot pull?  spring: force is cut when the spring is in tension (Eq. 23 to the letter); none: total
 /// normal force >= 0.
 enum class Tension { spring, none };
@@ -22,6 +28,14 @@ struct SievePoint {
 /// A sieve curve, both numbers rising from point to point: log-linear in between, and beyond the ends along the line of
 /// the nearest two points until nothing or everything passes.
 using Grading = std::vector<SievePoint>;
+
+/// A wall's springs, dashpots and friction over those between grains [-].  Negative: not given, wall_factor counts.
+struct WallFactors {
+  double stiffness = -1, damping = -1, friction = -1, rolling = -1;
+};
+
+/// A wall of straight pieces from point to point [m]; grains touch it from both sides.
+using Polyline = std::vector<base::Vec2>;
 
 struct Params {
   // the grain
@@ -42,8 +56,12 @@ struct Params {
   double damping = 0;             ///< alpha_cn [-] of Eq. 27, on the full mass; derived when restitution is given
   double restitution = 0;         ///< normal restitution of a pair [-]; derived when damping is given
   double friction = 0.55;         ///< mu [-]
-  double wall_factor = 2;         ///< k, eta, mu of walls over those of grains [-] (Eq. 28)
-  double gamma = 1;               ///< contact distance over the sum of radii [-] (Eq. 19)
+  Law law = Law::paper;
+  double wall_factor = 2;        ///< k, eta, mu of walls over those of grains [-] (Eq. 28)
+  WallFactors pipe, bottom;      ///< where one of them differs from that; side walls and polylines are like the bottom
+  double rolling_friction = 0;   ///< mu_r of the rolling resistance [-]; 0 = none
+  double rolling_damping = 0.3;  ///< of the rolling spring over its critical damping [-]
+  double gamma = 1;              ///< contact distance over the sum of radii [-] (Eq. 19)
   Tension tension = Tension::none;
   FrictionLimit friction_limit = FrictionLimit::total_force;
   double skin = 0.5;  ///< extra reach of the neighbour lists over d [-]; 0.5 is fastest when grains fly at 1 m/s
@@ -52,6 +70,8 @@ struct Params {
   int count = 0;        ///< number of grains; derived from bed_thickness when the case gives that
   double length = 0.5;  ///< period in x [m]
   Floor floor = Floor::plane;
+  bool side_walls = false;      ///< walls at x = 0 and x = length instead of the period
+  std::vector<Polyline> walls;  ///< further walls
   double lattice_gap = 0.001;   ///< gap between the grains of the starting lattice over d [-]
   unsigned seed = 1;            ///< of the diameters and of the lattice's small shifts
   double settled_speed = 1e-5;  ///< packing ends when the mean grain speed stays below this [m/s]

@@ -26,8 +26,8 @@ struct Touching {
 };
 Touching touching(const grains::Bed& bed) {
   const grains::State& s = bed.state;
-  const double pair = grains::contact(bed.params, 1).k_n;
-  const double floor = grains::contact(bed.params, bed.params.wall_factor).k_n;
+  const double pair = grains::pair_contact(bed.params).k_n;
+  const double floor = grains::wall_contact(bed.params, bed.params.bottom).k_n;
   Touching result;
   for (int i = 0; i < s.count(); ++i) {
     result.energy += 0.5 * floor * square(std::max(0.0, 0.5 * s.diameter[i] - s.y[i]));

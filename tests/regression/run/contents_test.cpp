@@ -145,7 +145,7 @@ void expect_frames(const fs::path& run) {
     const auto& ids = io::array(points.data, "id").values;
     EXPECT_EQ(std::set<double>(ids.begin(), ids.end()).size(), grains_of_quick);
     for (std::size_t k = 0; k < points.x.size(); ++k) {
-      ASSERT_TRUE(points.x[k] >= 0 && points.x[k] <= 0.2 && points.y[k] > 0 && points.y[k] < 0.1) << grains[n].file;
+      ASSERT_TRUE(points.x[k] >= 0 && points.x[k] <= 0.2f && points.y[k] > 0 && points.y[k] < 0.1) << grains[n].file;
       ASSERT_GT(std::hypot(points.x[k] - pipe_x, points.y[k] - pipe_y), 0.5 * (D + d) - 0.2 * d) << grains[n].file;
     }
   }

@@ -113,11 +113,11 @@ TEST(laws, walls_are_stiffer_by_the_factor_of_eq_28) {
   p.restitution = 0.5;
   p.friction = 0.4;
   p = derive(p);
-  const Contact pair = contact(p, 1), wall = contact(p, 2);
+  const Contact pair = pair_contact(p), wall = wall_contact(p, {2, 2, 2, 2});
   EXPECT_DOUBLE_EQ(wall.k_n, 2 * pair.k_n);
   EXPECT_DOUBLE_EQ(wall.k_s, 2 * pair.k_s);
   EXPECT_DOUBLE_EQ(wall.eta_n, 2 * pair.eta_n);
-  EXPECT_DOUBLE_EQ(wall.eta_s, 2 * pair.eta_s);
+  EXPECT_DOUBLE_EQ(wall.shear, pair.shear);
   EXPECT_DOUBLE_EQ(wall.mu, 2 * pair.mu);
   EXPECT_DOUBLE_EQ(pair.k_s, pair.k_n / 2.6);
   EXPECT_DOUBLE_EQ(pair.eta_n, p.damping * 2 * std::sqrt(mass(p, p.diameter) * p.stiffness));
@@ -131,7 +131,7 @@ TEST(laws, tension_and_sliding_bound_the_forces) {
     p.tension = tension;
     p.friction_limit = limit;
     p.damping = 0;
-    return contact_force<double>(contact(derive(p), 1), 1e-6, closing, slip, spring);
+    return contact_force<double>(pair_contact(derive(p)), pair_contact(derive(p)).eta_n, 1e-6, closing, slip, spring);
   };
   const double e_n = p.stiffness * 1e-6;
   EXPECT_EQ(force(Tension::none, FrictionLimit::total_force, -1, 0, 0).normal, 0);
@@ -146,16 +146,16 @@ TEST(laws, tension_and_sliding_bound_the_forces) {
   EXPECT_DOUBLE_EQ(pressed.spring, -0.5 * pressed.normal);  // the stored spring does not grow beyond the limit
   // Sticking: spring and dashpot add up.
   const auto sticking = force(Tension::none, FrictionLimit::total_force, 0, 1e-6, 1e-4);
-  const Contact c = contact(derive(p), 1);
+  const Contact c = pair_contact(derive(p));
   EXPECT_DOUBLE_EQ(sticking.spring, 1e-4 + c.k_s * c.dt * 1e-6);
-  EXPECT_DOUBLE_EQ(sticking.tangential, sticking.spring + c.eta_s * 1e-6);
+  EXPECT_DOUBLE_EQ(sticking.tangential, sticking.spring + c.shear * c.eta_n * 1e-6);
 }
 
-TEST(laws, eight_lanes_and_one_give_the_same_force) {
+TEST(laws, a_vector_and_one_number_give_the_same_force) {
   Params p = bodies::quartz();
   p.restitution = 0.4;
   p.friction = 0.5;
-  const Contact c = contact(derive(p), 1);
+  const Contact c = pair_contact(derive(p));
   double values[4][lanes];  // overlap, closing, slip, spring
   for (int l = 0; l < lanes; ++l) {
     values[0][l] = 1e-6 * (l + 1);
@@ -163,13 +163,16 @@ TEST(laws, eight_lanes_and_one_give_the_same_force) {
     values[2][l] = 0.01 * std::cos(5.0 * l);
     values[3][l] = 2e-3 * std::sin(7.0 * l);
   }
-  const Lanes overlap = load(values[0]), closing = load(values[1]), slip = load(values[2]), spring = load(values[3]);
-  const ContactForce<Lanes> eight = contact_force<Lanes>(c, overlap, closing, slip, spring);
-  for (int l = 0; l < lanes; ++l) {
-    const ContactForce<double> one = contact_force<double>(c, overlap[l], closing[l], slip[l], spring[l]);
-    EXPECT_NEAR(eight.normal[l], one.normal, 1e-17);
-    EXPECT_NEAR(eight.tangential[l], one.tangential, 1e-17);
-    EXPECT_NEAR(eight.spring[l], one.spring, 1e-17);
+  for (int part = 0; part < lanes; part += width) {
+    const auto of = [&](int what) { return load(values[what] + part); };
+    const ContactForce<Lanes> many = contact_force<Lanes>(c, c.eta_n, of(0), of(1), of(2), of(3));
+    for (int l = 0; l < width; ++l) {
+      const int n = part + l;
+      const auto one = contact_force<double>(c, c.eta_n, values[0][n], values[1][n], values[2][n], values[3][n]);
+      EXPECT_NEAR(many.normal[l], one.normal, 1e-17);
+      EXPECT_NEAR(many.tangential[l], one.tangential, 1e-17);
+      EXPECT_NEAR(many.spring[l], one.spring, 1e-17);
+    }
   }
 }
 
@@ -181,16 +184,16 @@ TEST(laws, records_survive_being_turned_into_lanes_and_back) {
   Lanes a[4], b[2];
   load_fours(fours, at, a);
   load_twos(twos, at, b);
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < width; ++l) {
     for (int f = 0; f < 4; ++f) EXPECT_EQ(a[f][l], 4 * at[l] + f);
     for (int f = 0; f < 2; ++f) EXPECT_EQ(b[f][l], 100 + 2 * at[l] + f);
   }
   store_fours(back, a[0], a[1], a[2], a[3]);
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < width; ++l) {
     for (int f = 0; f < 4; ++f) EXPECT_EQ(back[4 * l + f], 4 * at[l] + f);
   }
   store_twos(back, b[0], b[1]);
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < width; ++l) {
     for (int f = 0; f < 2; ++f) EXPECT_EQ(back[2 * l + f], 100 + 2 * at[l] + f);
   }
 }

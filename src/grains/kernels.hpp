@@ -1,0 +1,36 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "grains/contact.hpp"
+
+/// The loops that decide the speed of the grains: the step of a slice and the search for neighbours.  kernels.cpp is
+/// compiled once for each instruction set; which one runs is chosen when the program starts.
+namespace livebed::grains {
+
+/// Cells of at least one reach, numbered column by column.  The lowest and the highest row are open: a grain that flies
+/// far away costs no memory.
+struct Cells {
+  int columns, rows;
+  double width, height, bottom;
+};
+
+struct Kernels {
+  const char* name;  ///< of the instruction set
+  /// One step of the slices [begin, end).  Returns true when a grain of them has left its half skin.
+  bool (*step_slices)(const Sweep& k, Contacts& c, Records& r, int begin, int end);
+  /// Neighbours of the grains of ranks [begin, end) into w.found, those close by first, and their numbers; one more
+  /// than most_neighbours stands for too many.
+  void (*find)(const Cells& cells, const Reach& reach, int begin, int end, ListScratch& w);
+};
+
+/// Those in use: the widest this machine has, unless another set was asked for.
+const Kernels& kernels();
+
+/// Names of the sets that are built in and run on this machine, widest first: avx512, avx2, plain.
+std::vector<std::string_view> kernel_names();
+
+/// From now on the kernels of this set.  Throws Fault (usage) for a name that kernel_names does not give.
+void use_kernels(std::string_view name);
+
+}  // namespace livebed::grains
