@@ -47,7 +47,9 @@ HeapRun run_heap(const HeapSetup& setup) {
   p.spread = 0.3;  // no crystal, whose facets would be the slope
   p.stiffness = 550;
   p.restitution = 0.3;
+  p.law = grains::Law::hooke;
   p.friction = setup.friction;
+  p.rolling_friction = setup.rolling_friction;
   p.steps_per_contact = 40;  // the smallest grains are a third as heavy as the mean one
   p.wall_factor = 1;         // the floor is of grains like the others
   p.floor = grains::Floor::grains;

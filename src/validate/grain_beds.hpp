@@ -20,6 +20,7 @@ RestRun run_rest(grains::Params params);
 struct HeapSetup {
   int grains = 800;
   double friction = 0.5;
+  double rolling_friction = 0;
   unsigned seed = 1;
 };
 struct HeapRun {

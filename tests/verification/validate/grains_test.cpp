@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "validate/grain_beds.hpp"
 #include "validate/grain_gas.hpp"
+#include "validate/grain_impact.hpp"
+#include "validate/grain_silo.hpp"
 
 /// Short forms of what `livebed validate grains` runs.
 namespace livebed::validate {
@@ -27,6 +30,34 @@ TEST(grains, damping_and_friction_never_add_energy) {
       EXPECT_LT(std::abs(run.momentum), friction > 0 ? 1 : 1e-12);  // the floor rubs
     }
   }
+}
+
+TEST(grains, steep_impacts_slide_as_measured_and_flat_ones_stick) {
+  EXPECT_NEAR(run_oblique_impact(49.60, 1 / 2.6).tangential_restitution, 0.8476, 0.005);
+  EXPECT_NEAR(run_oblique_impact(79.23, 1 / 2.6).tangential_restitution, 0.9695, 0.005);
+  EXPECT_LT(run_oblique_impact(5, 0.87).contact_angle, 4);
+  EXPECT_EQ(impact_data("experiment", "final_spin_rad_s").angle.size(), 10u);
+}
+
+TEST(grains, heap_is_steeper_with_more_friction_and_with_rolling_resistance) {
+  const auto angle = [](double friction, double rolling) {
+    const HeapRun run = run_heap({.grains = 150, .friction = friction, .rolling_friction = rolling});
+    std::printf("friction %.1f, rolling %.1f: %.1f degrees\n", friction, rolling, run.angle());
+    return run.angle();
+  };
+  const double smooth = angle(0.1, 0), rough = angle(0.5, 0), resisting = angle(0.5, 0.3);
+  EXPECT_GT(smooth, 8);
+  EXPECT_GT(rough, smooth + 2);
+  EXPECT_GT(resisting, rough + 3);
+  EXPECT_LT(resisting, 40);
+}
+
+TEST(grains, floor_and_side_walls_of_a_bin_carry_its_weight) {
+  const SiloRun run = run_silo({.columns = 12, .rows = 24});
+  EXPECT_NEAR((run.floor + run.sides) / run.weight, 1, 1e-3);
+  EXPECT_GT(run.sides, 0.05 * run.weight);
+  EXPECT_GT(run.lateral_ratio, 0.3);
+  EXPECT_LT(run.lateral_ratio, 1.2);
 }
 
 }  // namespace
