@@ -68,9 +68,14 @@ std::vector<double> stretched_faces(double length, double h, double growth, doub
 }
 
 Mesh make_mesh(const MeshParams& grid, const PipeParams& pipe) {
+  return make_mesh(stretched_faces(grid.length, grid.cell_x, grid.growth, grid.fine_x_from, grid.fine_x_to),
+                   stretched_faces(grid.height, grid.cell_y, grid.growth, grid.fine_y_from, grid.fine_y_to), pipe);
+}
+
+Mesh make_mesh(const std::vector<double>& x, const std::vector<double>& y, const PipeParams& pipe) {
   Mesh m;
-  m.x = stretched_faces(grid.length, grid.cell_x, grid.growth, grid.fine_x_from, grid.fine_x_to);
-  m.y = stretched_faces(grid.height, grid.cell_y, grid.growth, grid.fine_y_from, grid.fine_y_to);
+  m.x = x;
+  m.y = y;
   m.nx = static_cast<int>(m.x.size()) - 1;
   m.ny = static_cast<int>(m.y.size()) - 1;
   fill_axis(m.x, m.xc, m.dx_, m.dx_face_);

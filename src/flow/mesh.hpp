@@ -44,6 +44,8 @@ std::vector<double> stretched_faces(double length, double h, double growth, doub
 
 /// The grid of the case with its pipe cut out.
 Mesh make_mesh(const MeshParams& grid, const PipeParams& pipe);
+/// The same from the positions of its faces [m], which begin at 0 and rise; an even number of columns.
+Mesh make_mesh(const std::vector<double>& x, const std::vector<double>& y, const PipeParams& pipe);
 
 /// The mesh with every opening and volume times the share of it that holds water: voidage at cell centres [-], 0 <
 /// voidage <= 1, mean of both cells on faces.  All operators on this mesh are those of the volume-averaged equations,

@@ -18,22 +18,25 @@ struct StepInlet {
   std::vector<double> u, k, epsilon;  ///< one value a row
 };
 
-/// Channel of height 8 H with a uniform inlet, rows of height 1/cells: its boundary layers grow until the lower one is
-/// as thick as the measured one 4 H before the step.  Throws Fault (diverged) when they do not.
+/// Channel of height 8 H with a uniform inlet and the rows that the step's grid has above it: its boundary layers grow
+/// until the lower one is as thick as the measured one 4 H before the step.  Throws Fault (diverged) when they do not.
 struct StepApproach {
+  std::vector<double> y;          ///< heights of the rows above the step's top
   StepInlet at_minus_4, at_step;  ///< where the layer is as thick as measured, and 4 H further down
   double friction = 0;            ///< Cf at the first
   double from_inlet = 0;          ///< distance of the first from the inlet
 };
-StepApproach approach_step(flow::Closure closure, int cells);
 
 struct StepSetup {
   flow::Closure closure = flow::Closure::k_epsilon;
-  int cells = 24;        ///< a step height
+  int cells = 24;        ///< a step height, along it and at most across
   double upstream = 4;   ///< length of channel before the step [H]; 0 = the inlet stands in the step's face
   bool friction = true;  ///< of the step's top
+  double first_row = 0;  ///< height of the rows at floor and step [H], growing away from them; 0 = all rows are equal
   std::string text() const;
 };
+
+StepApproach approach_step(const StepSetup& setup);
 
 struct StepRun {
   double reattachment = 0;

@@ -18,7 +18,7 @@ TEST(step, momentum_thickness_of_a_power_law) {
 
 TEST(step, reattaches_five_heights_behind_and_recovers) {
   const StepSetup setup{flow::Closure::k_epsilon, 8};
-  const StepApproach approach = approach_step(setup.closure, setup.cells);
+  const StepApproach approach = approach_step(setup);
   const StepRun run = run_step(setup, approach.at_minus_4);
   const double least = *std::min_element(run.cf.begin(), run.cf.end());
   std::printf("reattachment %.3f H, Cf %.5f before, %.5f least, %.5f at the end\n", run.reattachment, approach.friction,
