@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <fstream>
@@ -35,6 +36,8 @@ grains::Params read_params(const json& job) {
       p.friction = value;
     else if (key == "gravity")
       p.gravity = value;
+    else if (key == "law")
+      p.law = value == "hooke" ? grains::Law::hooke : grains::Law::paper;
     else if (key == "tension")
       p.tension = value == "spring" ? grains::Tension::spring : grains::Tension::none;
     else
@@ -44,8 +47,10 @@ grains::Params read_params(const json& job) {
   return grains::derive(p);
 }
 
-json told(const grains::Contact& c) {
-  return {{"k_n", c.k_n}, {"k_s", c.k_s}, {"eta_n", c.eta_n}, {"eta_s", c.shear * c.eta_n}, {"mu", c.mu}};
+/// Constants of a contact; dashpots [N s/m] for this reduced mass [kg].
+json told(const grains::Contact& c, grains::Law law, double reduced) {
+  const double eta_n = c.eta_n * (law == grains::Law::hooke ? std::sqrt(reduced) : 1.0);
+  return {{"k_n", c.k_n}, {"k_s", c.k_s}, {"eta_n", eta_n}, {"eta_s", c.shear * eta_n}, {"mu", c.mu}};
 }
 
 /// Rows of id, d, x, y, u, v, omega in the order of the ids.
@@ -79,12 +84,13 @@ json run(const json& job) {
     }
   }
   if (every == 0) looks.push_back(look(bed));
+  const double m = grains::mass(p, p.diameter);
   return {{"density", p.density + p.added_mass * p.fluid_density},
-          {"mass", grains::mass(p, p.diameter)},
+          {"mass", m},
           {"gravity", grains::submerged_gravity(p)},
           {"step", p.step},
-          {"pair", told(grains::pair_contact(p))},
-          {"wall", told(grains::wall_contact(p, p.bottom))},
+          {"pair", told(grains::pair_contact(p), p.law, 0.5 * m)},
+          {"wall", told(grains::wall_contact(p, p.bottom), p.law, m)},
           {"looks", looks}};
 }
 

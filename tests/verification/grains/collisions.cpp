@@ -1,8 +1,10 @@
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "bodies.hpp"
 #include "grains/measures.hpp"
+#include "oscillator.hpp"
 
 using namespace livebed;
 using namespace livebed::grains;
@@ -25,6 +27,33 @@ Params rebounding(double restitution, Tension tension, double steps) {
   p.steps_per_contact = steps;
   return p;
 }
+
+/// MFIX DEM03: two grains of 1 mm pressed between walls 1.8 mm apart, the lower one twice as heavy.  Ours have one
+/// density, so it is larger by 2^(1/3), and what lies above it moves up with its surface: the equations of motion are
+/// the same.  The upper wall is a pipe so large that it is flat.
+struct Stack {
+  static constexpr double diameter = 1e-3, stiffness = 1000;
+  const double grown = diameter * (std::cbrt(2.0) - 1);
+  double lower_mass, upper_mass;
+  Bed bed;
+
+  explicit Stack(double restitution) {
+    Params p = dry(diameter, 10000, stiffness);
+    p.steps_per_contact = 4000;
+    p.law = Law::hooke;
+    p.tension = Tension::spring;
+    p.restitution = restitution;
+    bed = bed_of(p, {{0.01, 0.45e-3 + 0.5 * grown}, {0.01, 1.35e-3 + grown}});
+    bed.state.diameter[0] += grown;
+    bed.pipe = {.present = true, .x = 0.01, .y = 1.8e-3 + grown + 1, .diameter = 2};
+    lower_mass = mass(p, diameter + grown), upper_mass = mass(p, diameter);
+  }
+  /// Heights of both in the time of the case [s], as if they were equally large [m].
+  std::pair<double, double> at(double time) {
+    advance(bed, static_cast<int>(std::lround(time / bed.params.step) - bed.steps));
+    return {body(bed, 0).y - 0.5 * grown, body(bed, 1).y - grown};
+  }
+};
 
 }  // namespace
 
@@ -97,23 +126,47 @@ TEST(collision, no_force_where_the_contact_distance_is_not_reached) {
 }
 
 TEST(collision, two_compressed_grains_swing_as_in_mfix_dem03) {
-  // The lower grain is twice as heavy.  Ours have one density, so it is larger by 2^(1/3), and what lies above it moves
-  // up with its surface: the equations of motion are the same.  The upper wall is a pipe so large that it is flat.
-  Params p = dry(1e-3, 10000, 1000);
-  p.steps_per_contact = 2000;
-  const double grown = p.diameter * (std::cbrt(2.0) - 1);
-  Bed bed = bed_of(p, {{0.01, 0.45e-3 + 0.5 * grown}, {0.01, 1.35e-3 + grown}});
-  bed.state.diameter[0] += grown;
-  bed.pipe = {.present = true, .x = 0.01, .y = 1.8e-3 + grown + 1, .diameter = 2};
+  Stack stack(1);
   double worst = 0;
   const auto rows = read_csv("dem_mfix03_two_stacked.csv");
   for (const auto& row : rows) {
-    advance(bed, static_cast<int>(std::lround(row[0] / bed.params.step) - bed.steps));
-    worst = std::max(worst, std::abs(body(bed, 0).y - 0.5 * grown - row[1]));
-    worst = std::max(worst, std::abs(body(bed, 1).y - grown - row[2]));
+    const auto [lower, upper] = stack.at(row[0]);
+    worst = std::max({worst, std::abs(lower - row[1]), std::abs(upper - row[2])});
   }
   EXPECT_GT(rows.size(), 100u);
   EXPECT_LT(worst, 3e-7);  // of swings of 1e-5 and 5e-5 m
+}
+
+TEST(collision, two_compressed_grains_come_to_rest_as_in_mfix_dem03_with_damping) {
+  for (const double e : {1.0, 0.9, 0.7, 0.5}) {
+    Stack stack(e);
+    // The same two masses between three springs and dashpots, by Runge and Kutta; y, v of the lower and the upper one.
+    using Four = std::array<double, 4>;
+    const double m1 = stack.lower_mass, m2 = stack.upper_mass, k = stack.stiffness, d = stack.diameter;
+    const auto push = [&](double overlap, double closing, double reduced) {
+      return overlap > 0 ? k * overlap + 2 * damping_ratio(e) * std::sqrt(reduced * k) * closing : 0.0;
+    };
+    const auto rate = [&](const Four& s) -> Four {
+      const double floor = push(0.5 * d - s[0], -s[2], m1), top = push(s[1] + 0.5 * d - 1.8e-3, s[3], m2);
+      const double pair = push(d - (s[1] - s[0]), s[2] - s[3], m1 * m2 / (m1 + m2));
+      return {s[2], s[3], (floor - pair) / m1 - 9.81, (pair - top) / m2 - 9.81};
+    };
+    const auto moved = [](Four s, const Four& r, double t) {
+      for (int n = 0; n < 4; ++n) s[n] += t * r[n];
+      return s;
+    };
+    Four s{0.45e-3, 1.35e-3, 0, 0};
+    constexpr double t = 1e-7;
+    double worst = 0;
+    for (int step = 1; step <= 10000; ++step) {
+      const Four a = rate(s), b = rate(moved(s, a, 0.5 * t)), c = rate(moved(s, b, 0.5 * t)), f = rate(moved(s, c, t));
+      for (int n = 0; n < 4; ++n) s[n] += t / 6 * (a[n] + 2 * b[n] + 2 * c[n] + f[n]);
+      if (step % 100 != 0) continue;
+      const auto [lower, upper] = stack.at(step * t);
+      worst = std::max({worst, std::abs(lower - s[0]), std::abs(upper - s[1])});
+    }
+    EXPECT_LT(worst, 2e-7) << "restitution " << e;
+  }
 }
 
 TEST(collision, slipping_grain_starts_to_roll_as_in_mfix_dem04) {
