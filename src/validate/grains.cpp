@@ -141,8 +141,8 @@ void rest(Book& book) {
                       damping.steps, damping.tension == Tension::spring ? ", the dashpot may pull" : "");
       Row row{"bed at rest, " + name + ": mean speed", run.mean_speed, "m/s", 0, 1e-5, "asked for"};
       row.setup =
-          "480 grains, 2 mm +- 5 %, friction 0.55, 5500 N/m, on a plane, settled; largest mean speed 10000 to 20000 "
-          "steps later; " +
+          "480 grains, 2 mm +- 5 %, friction 0.55, 5500 N/m, on a plane, settled; largest mean speed 0.3 to 0.4 s "
+          "later; " +
           name;
       row.seconds = run.seconds;
       book.add(row);
@@ -169,7 +169,7 @@ void heaps(Book& book) {
     }
     chart.curves.push_back(curve);
     const std::string setup = fmt::format(
-        "800 grains, 2 mm +- 30 %, {}, sunk at 0.15 m/s onto a floor of grains, at rest without a fluid; mean of {} "
+        "600 grains, 2 mm +- 30 %, {}, sunk at 0.15 m/s onto a floor of grains, at rest without a fluid; mean of {} "
         "seeds",
         name, seeds);
     Row angle{fmt::format("heap, {}: slope", name),
