@@ -276,6 +276,21 @@ void add_grains(std::vector<Row>& s) {
                   .says("moment of inertia: m d^2/10 or m d^2/8")
                   .from("Eq. 17"));
   s.push_back(real("grains.gravity", "m/s2", grains(&G::gravity)).above(0).says("g"));
+  s.push_back(
+      flag("grains.sleep", grains(&G::sleep))
+          .says("grains of the bed that have been at rest for a while are passed over until a force on them changes"));
+  s.push_back(real("grains.sleep_speed", "-", grains(&G::sleep_speed))
+                  .within(1e-8, 0.1)
+                  .says("slower than this over sqrt(g' d) counts as at rest"));
+  s.push_back(real("grains.sleep_time", "-", grains(&G::sleep_time))
+                  .within(0.1, 1000)
+                  .says("for so long over sqrt(d/g') before they fall asleep"));
+  s.push_back(real("grains.sleep_force", "-", grains(&G::sleep_force))
+                  .within(1e-6, 1)
+                  .says("change of the contact force, over what presses the grain, that wakes it"));
+  s.push_back(real("grains.sleep_drag", "-", grains(&G::sleep_drag))
+                  .within(1e-6, 10)
+                  .says("change of the fluid's force, over the submerged weight, that wakes a grain"));
 }
 
 void add_contact(std::vector<Row>& s) {

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "base/fault.hpp"
+#include "grains/sleep.hpp"
 
 namespace livebed::grains {
 
@@ -14,12 +15,14 @@ namespace {
 /// Sorts, lists, and copies the grains into the force loop's records; collects what the old records hold first.
 void renew(Bed& bed, const Sweep& constants) {
   bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
+  count_impulses(bed);
   try {
     rebuild(bed.state, bed.contacts, bed.scratch, constants.reach, bed.pipe, constants.walls);
   } catch (const base::Fault& fault) {
     fail(fault.code(), "grain step {} (t = {} s of grain time): {}", bed.steps,
          static_cast<double>(bed.steps) * bed.params.step, fault.what());
   }
+  spread_sleep(bed);
   fill_records(bed.params, bed.state, bed.contacts, bed.records);
 }
 
@@ -60,18 +63,25 @@ void check_count(const Bed& bed) {
 void advance(Bed& bed, int steps) {
   check_count(bed);
   const Sweep constants = make_sweep(bed.params, bed.pipe);
+  const int between_looks = steps_between_looks(bed.params);
+  prepare_sleep(bed);
   if (!lists_hold(bed.state, bed.contacts, constants.reach, bed.pipe)) {
     renew(bed, constants);
   } else {
+    if (bed.records.filled_for != bed.contacts.rebuilds || bed.records.asleep.empty()) spread_sleep(bed);
     fill_records(bed.params, bed.state, bed.contacts, bed.records);
   }
+  if (bed.params.sleep) wake_by_fluid(bed);
   for (int step = 0; step < steps; ++step) {
     const bool held = sweep(constants, bed.contacts, bed.records);
     ++bed.steps;
-    if (held) continue;
-    read_records(bed.records, bed.state);
-    renew(bed, constants);
+    if (!held) {
+      read_records(bed.records, bed.state);
+      renew(bed, constants);
+    }
+    if (bed.params.sleep && bed.steps % between_looks == 0) look(bed, constants);
   }
+  count_impulses(bed);
   read_records(bed.records, bed.state);
   bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
 }

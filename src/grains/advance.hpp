@@ -51,6 +51,10 @@ void each_array(BedLike& bed, Visit&& visit) {
       visit("list_spring", c.spring);
   visit("floor_spring", c.wall_spring[slot_floor]), visit("floor_odd_spring", c.wall_spring[slot_floor_odd]);
   visit("pipe_spring", c.wall_spring[slot_pipe]), visit("list_near", c.near);
+  auto& z = s.sleep;
+  visit("asleep", z.asleep), visit("calm", z.calm), visit("x_look", z.x_look), visit("y_look", z.y_look);
+  visit("sleep_contact_x", z.contact_x), visit("sleep_contact_y", z.contact_y), visit("sleep_twist", z.twist);
+  visit("sleep_fluid_x", z.fluid_x), visit("sleep_fluid_y", z.fluid_y), visit("sleep_load", z.load);
   visit("list_rolling", c.rolling), visit("floor_rolling", c.wall_rolling[slot_floor]);
   visit("floor_odd_rolling", c.wall_rolling[slot_floor_odd]), visit("pipe_rolling", c.wall_rolling[slot_pipe]);
   visit("wall_first", c.wall_first), visit("wall_piece", c.wall);

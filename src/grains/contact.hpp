@@ -37,6 +37,10 @@ struct Records {
   base::AlignedVector<Place> place, place_next;
   base::AlignedVector<Motion> motion, motion_next;
   base::AlignedVector<Own> own;
+  std::vector<std::uint8_t> asleep;      ///< of each slice: it is passed over
+  std::vector<std::uint8_t> turn;        ///< of each slice: it wakes or falls asleep
+  std::vector<std::int64_t> slept_from;  ///< of each sleeping slice: step up to which its impulses are counted
+  std::int64_t filled_for = -1;          ///< number of the lists (Contacts::rebuilds) all slices were filled for
   std::vector<std::uint8_t> moved;       ///< of each block of slices: some grain left its half skin
   Array pipe_impulse_x, pipe_impulse_y;  ///< of each slice since the last collection [N s]
 };
@@ -58,11 +62,17 @@ struct Sweep {
 /// Constants from complete parameters (derive).
 Sweep make_sweep(const Params& p, const Circle& pipe);
 
-/// Fills the records from the state and clears the pipe's impulse.
+/// Fills the records from the state, those of sleeping slices once for each new lists, and clears the pipe's impulse.
 void fill_records(const Params& p, const State& s, const Contacts& c, Records& r);
 
-/// What the steps have changed, back into the state.
+/// The same for one slice, asleep or not.
+void fill_slice(const Params& p, const State& s, const Contacts& c, int slice, Records& r);
+
+/// What the steps have changed in the slices that are awake, back into the state.
 void read_records(const Records& r, State& s);
+
+/// The same for one slice, asleep or not.
+void read_slice(const Records& r, int slice, State& s);
 
 /// One step of every grain, forces and motion in one pass over the slices (symplectic: velocities, then positions):
 ///   1  F <- contacts with neighbours, floor and pipe; histories forward

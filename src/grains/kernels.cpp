@@ -262,47 +262,72 @@ template <class Form, bool across_seam>
   return bits(~(dx * dx + dy * dy <= limit));  // a NaN counts as moved
 }
 
+/// Grains [begin, begin + width) as the records hold them.
+[[gnu::always_inline]] inline Part part_of(const Records& records, int begin) {
+  std::int32_t at[width];
+  for (int l = 0; l < width; ++l) at[l] = begin + l;
+  Lanes place[4], motion[2];
+  load_fours(&records.place.data()->x, at, place);
+  load_twos(&records.motion.data()->u, at, motion);
+  return {.x = place[0], .y = place[1], .u = motion[0], .v = motion[1], .r = place[2], .w = place[3]};
+}
+
+/// Everything that touches the part of a slice from `lane` on pushes it.
+template <class Form>
+[[gnu::always_inline]] inline void push_all(const Sweep& k, Part& g, Contacts& c, Records& records, int slice,
+                                            int lane) {
+  const unsigned near = c.near[slice];
+  const int begin = slice * lanes + lane;
+  if (near & near_seam) {
+    push_pairs<Form, true>(k, g, c, records, slice, lane);
+  } else {
+    push_pairs<Form, false>(k, g, c, records, slice, lane);
+  }
+  if (near & near_floor) push_floor<Form>(k, g, c, begin);
+  if (near & near_pipe) push_pipe<Form>(k, g, c, begin, records.pipe_impulse_x[slice], records.pipe_impulse_y[slice]);
+  if (near & near_wall) push_pieces<Form>(k, g, c, slice, lane);
+}
+
 /// One step of a slice.  Returns true when a grain of it has left its half skin.
 template <class Form>
 inline bool step_slice(const Sweep& k, Contacts& c, Records& records, int slice) {
-  const unsigned near = c.near[slice];
   unsigned moved = 0;
   for (int lane = 0; lane < lanes; lane += width) {
     const int begin = slice * lanes + lane;
-    std::int32_t at[width];
-    for (int l = 0; l < width; ++l) at[l] = begin + l;
-    Lanes place[4], motion[2];
-    load_fours(&records.place.data()->x, at, place);
-    load_twos(&records.motion.data()->u, at, motion);
-    Part g{.x = place[0], .y = place[1], .u = motion[0], .v = motion[1], .r = place[2], .w = place[3]};
-    if (near & near_seam) {
-      push_pairs<Form, true>(k, g, c, records, slice, lane);
-    } else {
-      push_pairs<Form, false>(k, g, c, records, slice, lane);
-    }
-    if (near & near_floor) push_floor<Form>(k, g, c, begin);
-    if (near & near_pipe) push_pipe<Form>(k, g, c, begin, records.pipe_impulse_x[slice], records.pipe_impulse_y[slice]);
-    if (near & near_wall) push_pieces<Form>(k, g, c, slice, lane);
+    Part g = part_of(records, begin);
+    push_all<Form>(k, g, c, records, slice, lane);
     moved |= move(k, g, records.own[slice], lane, &records.place_next[begin], &records.motion_next[begin]) << lane;
   }
   const int idle = (slice + 1) * lanes - k.count;  // the last slice may have lanes without a grain
   return (moved & (0xffu >> (idle > 0 ? idle : 0))) != 0;
 }
 
-template <class Form>
-bool step_all(const Sweep& k, Contacts& c, Records& r, int begin, int end) {
-  bool moved = false;
-  for (int slice = begin; slice < end; ++slice) moved |= step_slice<Form>(k, c, r, slice);
-  return moved;
+/// Calls run(Form{}) for the laws of a case.
+template <class Run>
+auto with_form(const Sweep& k, Run&& run) {
+  if (k.law == Law::hooke) return k.reach.rolling ? run(Form<Law::hooke, true>{}) : run(Form<Law::hooke, false>{});
+  return k.reach.rolling ? run(Form<Law::paper, true>{}) : run(Form<Law::paper, false>{});
 }
 
 bool step_slices(const Sweep& k, Contacts& c, Records& r, int begin, int end) {
-  if (k.law == Law::hooke) {
-    return k.reach.rolling ? step_all<Form<Law::hooke, true>>(k, c, r, begin, end)
-                           : step_all<Form<Law::hooke, false>>(k, c, r, begin, end);
-  }
-  return k.reach.rolling ? step_all<Form<Law::paper, true>>(k, c, r, begin, end)
-                         : step_all<Form<Law::paper, false>>(k, c, r, begin, end);
+  return with_form(k, [&](auto form) {
+    bool moved = false;
+    for (int slice = begin; slice < end; ++slice)
+      if (r.asleep[slice] == 0) moved |= step_slice<decltype(form)>(k, c, r, slice);
+    return moved;
+  });
+}
+
+void push_slice(const Sweep& k, Contacts& c, Records& r, int slice, SliceForce& force) {
+  with_form(k, [&](auto form) {
+    for (int lane = 0; lane < lanes; lane += width) {
+      Part g = part_of(r, slice * lanes + lane);
+      push_all<decltype(form)>(k, g, c, r, slice, lane);
+      store(force.x + lane, g.force_x);
+      store(force.y + lane, g.force_y);
+      store(force.twist + lane, g.twist);
+    }
+  });
 }
 
 /// The two or three different columns around column c of a periodic row of columns.
@@ -360,7 +385,7 @@ void find(const Cells& cells, const Reach& reach, int begin, int end, ListScratc
 
 namespace LIVEBED_KERNELS {
 extern const Kernels kernels;
-const Kernels kernels{LIVEBED_KERNELS_NAME, step_slices, find};
+const Kernels kernels{LIVEBED_KERNELS_NAME, step_slices, push_slice, find};
 }  // namespace LIVEBED_KERNELS
 
 }  // namespace livebed::grains

@@ -15,10 +15,17 @@ struct Cells {
   double width, height, bottom;
 };
 
+/// Contact forces on the grains of a slice [N]; the torque is twist times the radius.
+struct SliceForce {
+  double x[lanes], y[lanes], twist[lanes];
+};
+
 struct Kernels {
   const char* name;  ///< of the instruction set
-  /// One step of the slices [begin, end).  Returns true when a grain of them has left its half skin.
+  /// One step of the slices [begin, end) that are awake.  Returns true when a grain of them has left its half skin.
   bool (*step_slices)(const Sweep& k, Contacts& c, Records& r, int begin, int end);
+  /// Forces on a slice that does not move; histories go on by a step.
+  void (*push_slice)(const Sweep& k, Contacts& c, Records& r, int slice, SliceForce& force);
   /// Neighbours of the grains of ranks [begin, end) into w.found, those close by first, and their numbers; one more
   /// than most_neighbours stands for too many.
   void (*find)(const Cells& cells, const Reach& reach, int begin, int end, ListScratch& w);

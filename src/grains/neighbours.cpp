@@ -83,10 +83,10 @@ void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch&
   }
 }
 
-/// The final order of one window of ranks: by the number of pairs close by, then of all pairs.  Slices then hold grains
-/// with equally long lists, and few lanes idle.
-void sort_window(int begin, int end, ListScratch& w) {
-  std::int32_t by_all[window];
+/// The final order of one window of ranks: sleepers last, then by the number of pairs close by, then of all pairs.
+/// Slices then hold grains with equally long lists, few lanes idle, and whole slices sleep.
+void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
+  std::int32_t by_all[window], by_close[window];
   const auto counting_sort = [&](const std::int32_t* from, const std::vector<std::int32_t>& key, std::int32_t* to) {
     int start[most_neighbours + 3] = {};
     for (int k = 0; k < end - begin; ++k) ++start[key[from[k]] + 1];
@@ -96,7 +96,10 @@ void sort_window(int begin, int end, ListScratch& w) {
   std::int32_t ranks[window];
   std::iota(ranks, ranks + (end - begin), begin);
   counting_sort(ranks, w.found_all, by_all);
-  counting_sort(by_all, w.found_close, &w.rank_of_new[begin]);
+  counting_sort(by_all, w.found_close, by_close);
+  const auto awake = [&](std::int32_t rank) { return sleep.asleep[w.old_of_rank[rank]] == 0; };
+  if (!sleep.asleep.empty()) std::stable_partition(by_close, by_close + (end - begin), awake);
+  std::copy_n(by_close, end - begin, &w.rank_of_new[begin]);
   for (int place = begin; place < end; ++place) {
     const int rank = w.rank_of_new[place];
     w.new_of_rank[rank] = place;
@@ -113,15 +116,37 @@ void reorder(Array& a, ListScratch& w) {
 }
 
 void reorder_all(State& s, Contacts& c, ListScratch& w) {
-  for (Array* a : {&s.x, &s.y, &s.u, &s.v, &s.omega, &s.diameter, &s.fluid.u, &s.fluid.v, &s.fluid.beta, &s.fluid.fx,
-                   &s.fluid.fy, &s.impulse_x, &s.impulse_y}) {
+  for (Array* a : {&s.x,
+                   &s.y,
+                   &s.u,
+                   &s.v,
+                   &s.omega,
+                   &s.diameter,
+                   &s.fluid.u,
+                   &s.fluid.v,
+                   &s.fluid.beta,
+                   &s.fluid.fx,
+                   &s.fluid.fy,
+                   &s.impulse_x,
+                   &s.impulse_y,
+                   &s.sleep.x_look,
+                   &s.sleep.y_look,
+                   &s.sleep.contact_x,
+                   &s.sleep.contact_y,
+                   &s.sleep.twist,
+                   &s.sleep.fluid_x,
+                   &s.sleep.fluid_y,
+                   &s.sleep.load}) {
     reorder(*a, w);
   }
   for (auto* walls : {&c.wall_spring, &c.wall_rolling})
     for (Array& a : *walls) reorder(a, w);
-  w.ids.resize(s.id.size());
-  for (std::size_t k = 0; k < s.id.size(); ++k) w.ids[k] = s.id[w.old_of_new[k]];
-  s.id.swap(w.ids);
+  for (auto* a : {&s.id, &s.sleep.asleep, &s.sleep.calm}) {
+    if (a->empty()) continue;
+    w.ids.resize(a->size());
+    for (std::size_t k = 0; k < a->size(); ++k) w.ids[k] = (*a)[w.old_of_new[k]];
+    a->swap(w.ids);
+  }
 }
 
 /// Row numbers of every slice: as many as its longest list, of these as many at the front as pairs close by.
@@ -290,7 +315,7 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   base::for_each_item(0, windows, [&](int k) {
     const int begin = k * window, end = std::min(n, begin + window);
     find(cells, reach, begin, end, w);
-    sort_window(begin, end, w);
+    sort_window(begin, end, s.sleep, w);
   });
   reorder_all(s, c, w);
 

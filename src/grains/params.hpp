@@ -66,6 +66,13 @@ struct Params {
   FrictionLimit friction_limit = FrictionLimit::total_force;
   double skin = 0.5;  ///< extra reach of the neighbour lists over d [-]; 0.5 is fastest when grains fly at 1 m/s
 
+  // sleep
+  bool sleep = false;         ///< grains at rest may be passed over
+  double sleep_speed = 0.05;  ///< slower than this over sqrt(g' d), g' of submerged_gravity, counts as at rest [-]
+  double sleep_time = 0.5;    ///< that long over sqrt(d / g') before they fall asleep [-]
+  double sleep_force = 0.5;   ///< change of the contact force over what presses a grain that wakes it [-]
+  double sleep_drag = 0.1;    ///< change of the fluid's force over the submerged weight that wakes a grain [-]
+
   // the bed
   int count = 0;        ///< number of grains; derived from bed_thickness when the case gives that
   double length = 0.5;  ///< period in x [m]

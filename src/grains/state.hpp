@@ -21,6 +21,17 @@ struct FluidForce {
   Array fx, fy;  ///< further force [N]
 };
 
+/// Who sleeps and what would wake it (sleep.hpp); empty when nobody may sleep.
+struct Sleep {
+  std::vector<std::int32_t> asleep;  ///< 1 = asleep
+  std::vector<std::int32_t>
+      calm;              ///< looks in a row at which it had hardly moved; asleep: minus those with another force
+  Array x_look, y_look;  ///< where it was at the last look [m]
+  Array contact_x, contact_y, twist;  ///< contact forces when it fell asleep [N]
+  Array fluid_x, fluid_y;             ///< force of the fluid then [N]
+  Array load;                         ///< its weight and half the sum of the normal forces on it then [N]
+};
+
 /// Everything that changes with time, one entry a grain, in the order of the storage: grains are sorted in space
 /// whenever the neighbour lists are rebuilt, and every array moves with them; id names a grain for life.
 struct State {
@@ -31,6 +42,7 @@ struct State {
   std::vector<std::int32_t> id;
   FluidForce fluid;
   Array impulse_x, impulse_y;  ///< what the fluid gave the grain since the last reset [N s]
+  Sleep sleep;
 
   int count() const { return static_cast<int>(x.size()); }
 };

@@ -15,7 +15,7 @@ namespace livebed::run {
 
 namespace {
 
-constexpr std::int64_t format_version = 2;
+constexpr std::int64_t format_version = 3;
 
 /// Calls visit(name, field) for every field of the flow that the next step reads.
 template <class FlowState, class Visit>
@@ -77,7 +77,7 @@ void pass_scalars(GroupLike& g, ClockLike& clock, WallLike& wall, ProgressLike& 
   pass(g, "checkpoints", p.checkpoints), pass(g, "series_offset", p.series_offset), pass(g, "bed_offset", p.bed_offset);
   pass(g, "original_level", p.original.level), pass(g, "original_packed", p.original.packed);
   pass(g, "theta_sum", p.theta_sum), pass(g, "theta_time", p.theta_time), pass(g, "largest_overlap", p.largest_overlap);
-  pass(g, "start_wall", p.start_wall);
+  pass(g, "asleep_sum", p.asleep_sum), pass(g, "start_wall", p.start_wall);
 }
 
 template <class GroupLike, class BedLike>

@@ -14,6 +14,7 @@ struct Progress {
   std::uint64_t series_offset = 0, bed_offset = 0;                          ///< bytes of the tables
   Sampler::Original original;
   double theta_sum = 0, theta_time = 0;  ///< integral of the measured theta since the release, and its length [s]
+  double asleep_sum = 0;                 ///< integral of the share of grains asleep over the same time [s]
   double largest_overlap = 0;            ///< of two grains over d, so far
   double start_wall = 0;                 ///< wall time of packing and pipe placing [s]
 };

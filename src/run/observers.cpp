@@ -4,6 +4,7 @@
 #include <chrono>
 #include <fmt/format.h>
 
+#include "grains/sleep.hpp"
 #include "io/file.hpp"
 
 namespace livebed::run {
@@ -79,6 +80,7 @@ void Observers::write_series(const Simulation& sim, bool bed_due) {
     scour_depth_ = depths_.back();
     progress_.theta_sum += (sample.time - before) * sample.theta;
     progress_.theta_time += sample.time - before;
+    progress_.asleep_sum += (sample.time - before) * grains::share_asleep(sim.bed().state);
     progress_.largest_overlap = std::max(progress_.largest_overlap, sample.largest_overlap);
   }
   if (bed_due) write_bed(sim.time(), sample.line);

@@ -55,7 +55,9 @@ std::string fastest_place(const flow::Mesh& m, const flow::State& s) {
 Simulation::Start Simulation::prepare(const casefile::Case& given) {
   Start start{given, {}, {}};
   if (given.grains.count == 0) return start;
-  grains::Packing packing = grains::pack(given.grains);
+  grains::Params awake = given.grains;  // nobody sleeps before the bed has come to rest
+  awake.sleep = false;
+  grains::Packing packing = grains::pack(awake);
   start.bed = std::move(packing.bed);
   start.convergence = std::move(packing.convergence);
   casefile::derive_at_level(start.resolved, measured_level(given, start.bed));
@@ -67,6 +69,7 @@ Simulation::Start Simulation::prepare(const casefile::Case& given) {
       start.convergence.push_back(row);
     }
   }
+  start.bed.params.sleep = given.grains.sleep;
   return start;
 }
 

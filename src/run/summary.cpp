@@ -75,6 +75,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& sim, c
   j["grain_steps"] = clock.grain_steps;
   j["cells"] = mesh.nx * mesh.ny;
   j["grains"] = c.grains.count;
+  if (c.grains.sleep) j["share_asleep"] = progress.theta_time > 0 ? progress.asleep_sum / progress.theta_time : 0.0;
   j["threads"] = base::threads();
   j["peak_memory_MB"] = peak_memory_MB();
   j["case_hash"] = casefile::hash(c);

@@ -1,0 +1,280 @@
+#include "grains/sleep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "base/loops.hpp"
+#include "base/math.hpp"
+#include "grains/kernels.hpp"
+
+namespace livebed::grains {
+
+using base::square;
+
+namespace {
+
+constexpr int looks_a_rest = 2;   ///< a grain must be found calm as often as this, each time after half of sleep_time
+constexpr int looks_to_wake = 3;  ///< a change must last for as many looks: a knock that passes through does not wake
+
+double weight(const Params& p, double d) { return mass(p, d) * submerged_gravity(p); }
+
+/// Calls body(grain) for the grains of a slice.
+template <class Body>
+void each_grain(const State& s, int slice, Body&& body) {
+  for (int i = slice * lanes; i < std::min(s.count(), (slice + 1) * lanes); ++i) body(i);
+}
+
+/// Force of the fluid on a grain that does not move [N].
+base::Vec2 fluid_force(const FluidForce& f, int i) {
+  return {f.fx[i] + f.beta[i] * f.u[i], f.fy[i] + f.beta[i] * f.v[i]};
+}
+
+/// The slot that grain i has for its neighbour j.
+std::ptrdiff_t slot_of(const Contacts& c, int i, int j) {
+  std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(c.first[i / lanes]) * lanes + i % lanes;
+  while (c.neighbour[slot] != j) slot += lanes;  // lists are mutual
+  return slot;
+}
+
+/// Calls body(slot, i, j) for every neighbour j of the grains i of a slice.
+template <class Body>
+void each_pair(const State& s, const Contacts& c, int slice, Body&& body) {
+  for (int row = c.first[slice]; row < c.first[slice + 1]; ++row) {
+    for (int l = 0; l < lanes; ++l) {
+      const std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(row) * lanes + l;
+      if (c.neighbour[slot] < s.count()) body(slot, slice * lanes + l, c.neighbour[slot]);
+    }
+  }
+}
+
+/// Both sides of a contact remember the same; a sleeper's memory is that of its neighbour awake.
+void copy_history(Contacts& c, std::ptrdiff_t from, std::ptrdiff_t to) {
+  c.spring[to] = c.spring[from];
+  if (!c.rolling.empty()) c.rolling[to] = -c.rolling[from];
+}
+
+/// Takes over the histories of contacts with grains awake; false when there is none.
+bool take_histories(const State& s, Contacts& c, const Records& r, int slice) {
+  bool any = false;
+  each_pair(s, c, slice, [&](std::ptrdiff_t slot, int i, int j) {
+    if (r.asleep[j / lanes] != 0) return;
+    copy_history(c, slot_of(c, j, i), slot);
+    any = true;
+  });
+  return any;
+}
+
+/// Whether the contact forces on a sleeping slice have not been what they were for some looks.  While a grain sleeps,
+/// calm counts those looks downwards from 0.
+bool feels_change(Bed& bed, int slice, const SliceForce& now) {
+  Sleep& z = bed.state.sleep;
+  bool lasts = false;
+  each_grain(bed.state, slice, [&](int i) {
+    const int l = i % lanes;
+    const double limit = bed.params.sleep_force * z.load[i];
+    const bool changed = square(now.x[l] - z.contact_x[i]) + square(now.y[l] - z.contact_y[i]) > square(limit) ||
+                         std::abs(now.twist[l] - z.twist[i]) > limit;
+    z.calm[i] = changed ? z.calm[i] - 1 : 0;
+    lasts |= z.calm[i] <= -looks_to_wake;
+  });
+  return lasts;
+}
+
+/// Whether no grain of the slice has moved much since the last look; begins the next interval.
+bool looks_calm(Bed& bed, const Sweep& k, int slice, double interval) {
+  Sleep& z = bed.state.sleep;
+  const double far = square(bed.params.sleep_speed * std::sqrt(k.gravity * bed.params.diameter) * interval);
+  int least = looks_a_rest;
+  each_grain(bed.state, slice, [&](int i) {
+    const Place& at = bed.records.place[i];
+    const double d2 = square(nearest_image(at.x - z.x_look[i], k.reach.length)) + square(at.y - z.y_look[i]);
+    z.calm[i] = d2 <= far ? z.calm[i] + 1 : 0;
+    z.x_look[i] = at.x, z.y_look[i] = at.y;
+    least = std::min(least, z.calm[i]);
+  });
+  return least >= looks_a_rest;
+}
+
+/// What presses a grain: its weight and half the sum of the spring forces of its neighbours [N].
+double load_of(const Bed& bed, const Sweep& k, int i) {
+  const Contacts& c = bed.contacts;
+  const Place& own = bed.records.place[i];
+  double pressed = 0;
+  for (int row = c.first[i / lanes]; row < c.first[i / lanes + 1]; ++row) {
+    const Place& other = bed.records.place[c.neighbour[static_cast<std::ptrdiff_t>(row) * lanes + i % lanes]];
+    const double dx = nearest_image(other.x - own.x, k.reach.length), dy = other.y - own.y;
+    pressed += k.pair.k_n * std::max(0.0, k.reach.gamma * (own.r + other.r) - std::hypot(dx, dy));
+  }
+  return weight(bed.params, bed.state.diameter[i]) + 0.5 * pressed;
+}
+
+/// Whether the forces on every grain of the slice are in balance; keeps them.  Histories stay as they are.
+bool in_balance(Bed& bed, const Sweep& k, int slice) {
+  constexpr int most_rows = most_neighbours + lanes;
+  std::array<double, most_rows * lanes> springs, rolling;
+  Contacts& c = bed.contacts;
+  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
+  const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(c.first[slice + 1]) * lanes - begin;
+  std::copy_n(c.spring.begin() + begin, count, springs.begin());
+  if (!c.rolling.empty()) std::copy_n(c.rolling.begin() + begin, count, rolling.begin());
+  SliceForce force;
+  kernels().push_slice(k, c, bed.records, slice, force);
+  std::copy_n(springs.begin(), count, c.spring.begin() + begin);
+  if (!c.rolling.empty()) std::copy_n(rolling.begin(), count, c.rolling.begin() + begin);
+
+  Sleep& z = bed.state.sleep;
+  bool balance = true;
+  each_grain(bed.state, slice, [&](int i) {
+    const int l = i % lanes;
+    const double w = weight(bed.params, bed.state.diameter[i]);
+    z.load[i] = load_of(bed, k, i);
+    const double limit = bed.params.sleep_force * z.load[i];
+    const base::Vec2 fluid = fluid_force(bed.state.fluid, i);
+    z.contact_x[i] = force.x[l], z.contact_y[i] = force.y[l], z.twist[i] = force.twist[l];
+    z.fluid_x[i] = fluid.x, z.fluid_y[i] = fluid.y;
+    balance &= std::hypot(force.x[l] + fluid.x, force.y[l] + fluid.y - w) <= limit && std::abs(force.twist[l]) <= limit;
+  });
+  return balance;
+}
+
+void count_impulse(Bed& bed, int slice) {
+  State& s = bed.state;
+  std::int64_t& from = bed.records.slept_from[slice];
+  const double time = static_cast<double>(bed.steps - from) * bed.params.step;
+  each_grain(s, slice, [&](int i) {
+    const base::Vec2 force = fluid_force(s.fluid, i);
+    s.impulse_x[i] += time * force.x;
+    s.impulse_y[i] += time * force.y;
+  });
+  from = bed.steps;
+}
+
+/// The histories of its contacts with grains awake must be there.
+void wake(Bed& bed, int slice) {
+  Sleep& z = bed.state.sleep;
+  count_impulse(bed, slice);
+  bed.records.asleep[slice] = 0;
+  each_grain(bed.state, slice, [&](int i) {
+    z.asleep[i] = z.calm[i] = 0;
+    z.x_look[i] = bed.state.x[i], z.y_look[i] = bed.state.y[i];
+  });
+  fill_slice(bed.params, bed.state, bed.contacts, slice, bed.records);
+}
+
+void fall_asleep(Bed& bed, int slice) {
+  State& s = bed.state;
+  read_slice(bed.records, slice, s);
+  each_grain(s, slice, [&](int i) {
+    s.u[i] = s.v[i] = s.omega[i] = 0;
+    s.sleep.asleep[i] = 1;
+    s.sleep.calm[i] = 0;
+  });
+  bed.records.asleep[slice] = 1;
+  bed.records.slept_from[slice] = bed.steps;
+  fill_slice(bed.params, s, bed.contacts, slice, bed.records);
+  each_pair(s, bed.contacts, slice, [&](std::ptrdiff_t slot, int i, int j) {
+    if (bed.records.asleep[j / lanes] != 0) copy_history(bed.contacts, slot, slot_of(bed.contacts, j, i));
+  });
+}
+
+}  // namespace
+
+int steps_between_looks(const Params& p) { return std::max(1, static_cast<int>(std::lround(p.steps_per_contact))); }
+
+void prepare_sleep(Bed& bed) {
+  State& s = bed.state;
+  Sleep& z = s.sleep;
+  const std::size_t n = bed.params.sleep ? s.x.size() : 0;
+  if (z.asleep.size() == n) return;
+  bed.records.asleep.clear();
+  for (auto* a : {&z.asleep, &z.calm}) a->assign(n, 0);
+  for (Array* a : {&z.contact_x, &z.contact_y, &z.twist, &z.fluid_x, &z.fluid_y, &z.load}) a->assign(n, 0.0);
+  z.x_look.assign(s.x.begin(), s.x.begin() + n);
+  z.y_look.assign(s.y.begin(), s.y.begin() + n);
+}
+
+void spread_sleep(Bed& bed) {
+  State& s = bed.state;
+  Records& r = bed.records;
+  const int slices = bed.contacts.slices();
+  r.asleep.assign(slices, 0);
+  if (s.sleep.asleep.empty()) return;
+  r.turn.assign(slices, 0);
+  r.slept_from.assign(slices, bed.steps);
+  base::for_each_item(0, slices, [&](int slice) {
+    bool all = true, any = false;
+    each_grain(s, slice, [&](int i) { all &= s.sleep.asleep[i] != 0, any |= s.sleep.asleep[i] != 0; });
+    r.asleep[slice] = all && (bed.contacts.near[slice] & near_pipe) == 0;
+    r.turn[slice] = any && r.asleep[slice] == 0;
+  });
+  for (int slice = 0; slice < slices; ++slice) {
+    if (r.turn[slice] == 0) continue;
+    // Grains that sleep in a slice that does not: their memory is that of whoever was awake.
+    each_pair(s, bed.contacts, slice, [&](std::ptrdiff_t slot, int i, int j) {
+      if (s.sleep.asleep[i] != 0 && s.sleep.asleep[j] == 0)
+        copy_history(bed.contacts, slot_of(bed.contacts, j, i), slot);
+    });
+  }
+  for (int slice = 0; slice < slices; ++slice) {
+    if (r.turn[slice] == 0) continue;
+    each_grain(s, slice, [&](int i) { s.sleep.asleep[i] = s.sleep.calm[i] = 0; });
+  }
+}
+
+void wake_by_fluid(Bed& bed) {
+  const State& s = bed.state;
+  Records& r = bed.records;
+  base::for_each_item(0, bed.contacts.slices(), [&](int slice) {
+    r.turn[slice] = 0;
+    if (r.asleep[slice] == 0) return;
+    each_grain(s, slice, [&](int i) {
+      const base::Vec2 now = fluid_force(s.fluid, i);
+      const double limit = bed.params.sleep_drag * weight(bed.params, s.diameter[i]);
+      r.turn[slice] |= square(now.x - s.sleep.fluid_x[i]) + square(now.y - s.sleep.fluid_y[i]) > square(limit);
+    });
+    if (r.turn[slice] != 0) take_histories(s, bed.contacts, r, slice);
+  });
+  for (int slice = 0; slice < bed.contacts.slices(); ++slice)
+    if (r.turn[slice] != 0) wake(bed, slice);
+}
+
+void look(Bed& bed, const Sweep& k) {
+  Records& r = bed.records;
+  const int between = steps_between_looks(bed.params);
+  const double rest = bed.params.sleep_time * std::sqrt(bed.params.diameter / k.gravity) / looks_a_rest;
+  const int steps_a_rest = between * std::max(1, static_cast<int>(std::lround(rest / (between * k.dt))));
+  const bool may_fall = bed.steps % steps_a_rest == 0;
+  base::for_each_item(0, bed.contacts.slices(), [&](int slice) {
+    r.turn[slice] = 0;
+    if (r.asleep[slice] == 0 || !take_histories(bed.state, bed.contacts, r, slice)) return;
+    SliceForce now;
+    kernels().push_slice(k, bed.contacts, r, slice, now);
+    r.turn[slice] = feels_change(bed, slice, now);
+  });
+  // The forces on those awake are tried on their own histories, which the sleepers have read by now.
+  if (may_fall) {
+    base::for_each_item(0, bed.contacts.slices(), [&](int slice) {
+      if (r.asleep[slice] != 0 || !looks_calm(bed, k, slice, steps_a_rest * k.dt)) return;
+      r.turn[slice] = (bed.contacts.near[slice] & near_pipe) == 0 && in_balance(bed, k, slice);
+    });
+  }
+  for (int slice = 0; slice < bed.contacts.slices(); ++slice) {
+    if (r.turn[slice] == 0) continue;
+    r.asleep[slice] != 0 ? wake(bed, slice) : fall_asleep(bed, slice);
+  }
+}
+
+void count_impulses(Bed& bed) {
+  base::for_each_item(0, static_cast<int>(bed.records.asleep.size()), [&](int slice) {
+    if (bed.records.asleep[slice] != 0) count_impulse(bed, slice);
+  });
+}
+
+double share_asleep(const State& s) {
+  if (s.sleep.asleep.empty()) return 0;
+  return std::accumulate(s.sleep.asleep.begin(), s.sleep.asleep.end(), 0.0) / static_cast<double>(s.count());
+}
+
+}  // namespace livebed::grains
