@@ -7,7 +7,8 @@
 constants.  All grains are awake, friction, history and dashpots are on, lists are made anew every 100 steps.  What
 counts is each code's own time for its steps, without start and warm-up (which gives the contacts their history back).
 Each line of the table: median (smallest to largest) over the rounds, contacts a grain at the end, and the largest
-number of cores that other programs kept busy in the meantime: above 0.1 the line says little.
+number of cores that other programs kept busy in the meantime: above 0.1 the line says little.  OUT keeps the beds; a
+version of Livebed that packs another bed wants another OUT.
 """
 import argparse
 import json

@@ -43,17 +43,16 @@ RestRun run_rest(grains::Params params) {
 HeapRun run_heap(const HeapSetup& setup) {
   constexpr double sinking = 0.15;               // speed of a grain that sinks alone [m/s]
   constexpr double start_above = 0.06;           // the lowest grain's first place: above the heap to come [m]
-  constexpr double at_rest = 1e-5, longest = 3;  // mean speed [m/s]; time it may take after the last grain [s]
+  constexpr double at_rest = 1e-5, longest = 1;  // mean speed [m/s]; time it may take after the last grain [s]
   const auto begin = Clock::now();
   grains::Params p;
-  p.spread = 0.3;  // no crystal, whose facets would be the slope
-  p.stiffness = 550;
+  p.spread = 0.3;     // no crystal, whose facets would be the slope
+  p.stiffness = 200;  // overlaps of a percent at the speed of sinking
   p.restitution = 0.3;
   p.law = grains::Law::hooke;
   p.friction = setup.friction;
   p.rolling_friction = setup.rolling_friction;
-  p.steps_per_contact = 40;  // the smallest grains are a third as heavy as the mean one
-  p.wall_factor = 1;         // the floor is of grains like the others
+  p.wall_factor = 1;  // the floor is of grains like the others
   p.floor = grains::Floor::grains;
   p.length = 0.4;
   p.count = setup.grains;

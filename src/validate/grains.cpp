@@ -151,7 +151,7 @@ void rest(Book& book) {
 }
 
 void heaps(Book& book) {
-  constexpr int seeds = 4;
+  constexpr int seeds = 3;
   report::Chart chart{{"distance from the middle [m]"}, {"surface [m]"}, {}, 720, 320};
   double before = 0;
   std::size_t k = 0;
