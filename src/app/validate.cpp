@@ -52,7 +52,7 @@ void add_validate(CLI::App& app, Action& chosen) {
       if (!options->name.empty())
         base::fail(base::Exit::command_line, "{} is nothing to validate; there are {}", options->name,
                    casefile::listed(names));
-      for (const validate::Case& c : validate::cases()) fmt::print("{:18} {}\n", c.name, c.says);
+      for (const validate::Case& c : validate::cases()) fmt::print("{:24} {}\n", c.name, c.says);
       return base::Exit::ok;
     };
   });

@@ -241,7 +241,11 @@ Result oner_fine(const Tell& tell) { return fine_grid({models[0]}, {0.3}, "oner_
 Result oner_fine_bed(const Tell& tell) { return fine_grid({models[0]}, {0.0}, "oner_fine_bed", tell); }
 
 Result oner_fine_closures(const Tell& tell) {
-  return fine_grid({models[1], models[2]}, {0.3, 0.0}, "oner_fine_closures", tell);
+  return fine_grid({models[1], models[2]}, {0.3}, "oner_fine_closures", tell);
+}
+
+Result oner_fine_bed_closures(const Tell& tell) {
+  return fine_grid({models[1], models[2]}, {0.0}, "oner_fine_bed_closures", tell);
 }
 
 }  // namespace livebed::validate

@@ -17,5 +17,6 @@ Result oner_depth(const Tell& tell);
 Result oner_fine(const Tell& tell);
 Result oner_fine_bed(const Tell& tell);
 Result oner_fine_closures(const Tell& tell);
+Result oner_fine_bed_closures(const Tell& tell);
 
 }  // namespace livebed::validate

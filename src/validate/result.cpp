@@ -41,7 +41,8 @@ const std::vector<Case>& cases() {
       {"oner-depth", "what sets its Strouhal number: depth, approach profile, scheme, grid", oner_depth},
       {"oner-fine", "the same on the paper's 1500 x 260 cells: k-epsilon, e/D 0.3", oner_fine},
       {"oner-fine-bed", "the same, e/D 0", oner_fine_bed},
-      {"oner-fine-closures", "the same, realizable k-epsilon and k-omega SST, e/D 0.3 and 0", oner_fine_closures},
+      {"oner-fine-closures", "on the paper's grid, e/D 0.3: realizable k-epsilon and k-omega SST", oner_fine_closures},
+      {"oner-fine-bed-closures", "the same, e/D 0", oner_fine_bed_closures},
   };
   return all;
 }
