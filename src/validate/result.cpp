@@ -36,6 +36,7 @@ const std::vector<Case>& cases() {
       {"channel", "open channel, each closure against the log law and direct numerical simulation", channel},
       {"step", "backward-facing step of Driver and Seegmiller (1985), each closure: reattachment, Cf, Cp, profiles",
        step},
+      {"step-walls", "the same step with its walls resolved: k-omega SST as it is published", step_walls},
       {"grains", "grains: oblique impacts, energy of a gas, rest for every damping, heaps, bins", grains},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},
       {"oner-depth", "what sets its Strouhal number: depth, approach profile, scheme, grid", oner_depth},

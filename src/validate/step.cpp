@@ -266,27 +266,24 @@ StepRun run_step(const StepSetup& setup, const StepInlet& inlet) {
   return run;
 }
 
-Result step(const Tell& tell) {
-  struct Model {
-    const char* name;
-    flow::Closure closure;
-    const char* colour;
-    double first_row;
-    double low, high;
-    const char* published;
-  };
-  constexpr const char* published_sst =
-      "6.50 (SSTm) and 6.35 (SST-V), NASA Turbulence Modeling Resource; measured 6.26 +- 0.10";
-  constexpr int finest = 24;  ///< cells a step height
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<Model> models = {
-      {"k-epsilon", flow::Closure::k_epsilon, "#1f77b4", 0, 4.9, 5.6,
-       "4.9 to 5.6 usual with wall functions (not checked in a source); measured 6.26 +- 0.10"},
-      {"k-epsilon, realizable", flow::Closure::k_epsilon_realizable, "#2ca02c", 0, none, none,
-       "no published value known; measured 6.26 +- 0.10"},
-      {"k-omega SST", flow::Closure::k_omega_sst, "#d62728", 0, 6.35, 6.65, published_sst},
-      // As it is published: with y+ 1 in the middle of the first rows.
-      {"k-omega SST, walls resolved", flow::Closure::k_omega_sst, "#9467bd", 0.0015, 6.35, 6.65, published_sst}};
+namespace {
+
+struct Model {
+  const char* name;
+  flow::Closure closure;
+  const char* colour;
+  double first_row;
+  double low, high;
+  const char* published;
+};
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* published_sst =
+    "6.50 (SSTm) and 6.35 (SST-V), NASA Turbulence Modeling Resource; measured 6.26 +- 0.10";
+
+/// Each model on two grids, cells a step height; targets and profiles are those of the finer one.  inlets: what the
+/// place of the inlet costs on the coarser one, too.
+Result run_models(const std::vector<Model>& models, int coarse, int finest, bool inlets, const std::string& figures,
+                  const Tell& tell) {
   const io::Table cf = io::parse_table(step_friction, "data/bfs_driver_seegmiller_cf.csv"),
                   cp = io::parse_table(step_pressure, "data/bfs_driver_seegmiller_cp.csv");
   Result result;
@@ -312,7 +309,7 @@ Result step(const Tell& tell) {
       result.rows.push_back(row);
       return result.rows.back();
     };
-    for (int cells : {16, 24}) {
+    for (int cells : {coarse, finest}) {
       StepSetup setup{model.closure, cells};
       setup.first_row = model.first_row;
       const StepApproach approach = approach_step(setup);
@@ -324,7 +321,7 @@ Result step(const Tell& tell) {
       };
       Row& place = told("reattachment", run.reattachment, "H", model.published);
       if (cells == finest) place.low = model.low, place.high = model.high;
-      if (cells != finest && model.first_row > 0) continue;
+      if (cells != finest && !inlets) continue;
       if (cells != finest) {
         // What the place of the inlet costs.
         const StepSetup in_face{model.closure, cells, 0}, frictionless{model.closure, cells, 2, false};
@@ -360,10 +357,29 @@ Result step(const Tell& tell) {
       chart_cp.curves.push_back({model.name, model.colour, run.x, run.cp});
     }
   }
-  result.pictures = {{"step_cf.svg", picture(chart_cf)},
-                     {"step_cp.svg", picture(chart_cp)},
-                     {"step_profiles.svg", panels(profiles, 2)}};
+  result.pictures = {{figures + "_cf.svg", picture(chart_cf)},
+                     {figures + "_cp.svg", picture(chart_cp)},
+                     {figures + "_profiles.svg", panels(profiles, 2)}};
   return result;
+}
+
+}  // namespace
+
+Result step(const Tell& tell) {
+  const std::vector<Model> models = {
+      {"k-epsilon", flow::Closure::k_epsilon, "#1f77b4", 0, 4.9, 5.6,
+       "4.9 to 5.6 usual with wall functions (not checked in a source); measured 6.26 +- 0.10"},
+      {"k-epsilon, realizable", flow::Closure::k_epsilon_realizable, "#2ca02c", 0, none, none,
+       "no published value known; measured 6.26 +- 0.10"},
+      {"k-omega SST", flow::Closure::k_omega_sst, "#d62728", 0, 6.35, 6.65, published_sst}};
+  return run_models(models, 16, 24, true, "step", tell);
+}
+
+Result step_walls(const Tell& tell) {
+  constexpr double first_row = 0.0015;  // y+ 1 in the middle of the first rows before the step
+  return run_models(
+      {{"k-omega SST, walls resolved", flow::Closure::k_omega_sst, "#d62728", first_row, 6.35, 6.65, published_sst}},
+      12, 16, false, "step_walls", tell);
 }
 
 }  // namespace livebed::validate

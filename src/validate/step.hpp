@@ -51,6 +51,9 @@ StepRun run_step(const StepSetup& setup, const StepInlet& inlet);
 /// Integral of u/U (1 - u/U) over the measured heights 1.1 H to 3.2 H, straight between them and to 0 on the wall [H].
 double momentum_thickness(const std::vector<double>& y, const std::vector<double>& u);
 
+/// Each closure with wall functions on equal rows.
 Result step(const Tell& tell);
+/// SST on rows that resolve the walls, as it is published.
+Result step_walls(const Tell& tell);
 
 }  // namespace livebed::validate
