@@ -342,8 +342,8 @@ int columns_around(int c, int columns, int around[3]) {
   return 3;
 }
 
-void find_one(const Cells& cells, const Reach& reach, int rank, ListScratch& w) {
-  std::int32_t* const close = w.found.data() + static_cast<std::ptrdiff_t>(rank) * most_neighbours;
+/// Writes the neighbours of one grain to `close`, where most_neighbours have room; returns how many.
+int find_one(const Cells& cells, const Reach& reach, int rank, ListScratch& w, std::int32_t* close) {
   std::int32_t apart[most_neighbours];
   int n_close = 0, n_apart = 0;
   const double x = w.x[rank], y = w.y[rank], touching = w.touching[rank];
@@ -363,7 +363,7 @@ void find_one(const Cells& cells, const Reach& reach, int rank, ListScratch& w) 
       const unsigned near = bits(d2 < close_by * close_by * contact * contact);
       if (n_close + n_apart + lanes > most_neighbours) {
         w.found_all[rank] = most_neighbours + 1;
-        return;
+        return 0;
       }
       n_close += append_lanes(close + n_close, j, here & near);
       n_apart += append_lanes(apart + n_apart, j, here & ~near);
@@ -371,14 +371,17 @@ void find_one(const Cells& cells, const Reach& reach, int rank, ListScratch& w) 
   }
   for (int k = 0; k < n_apart; ++k) close[n_close + k] = apart[k];
   w.found_close[rank] = n_close;
-  w.found_all[rank] = n_close + n_apart;
+  return w.found_all[rank] = n_close + n_apart;
 }
 
-void find(const Cells& cells, const Reach& reach, int begin, int end, ListScratch& w) {
+int find(const Cells& cells, const Reach& reach, int begin, int end, ListScratch& w, std::int32_t* found) {
+  int count = 0;
   for (int rank = begin; rank < end; ++rank) {
     w.found_close[rank] = 0;
-    find_one(cells, reach, rank, w);
+    w.found_first[rank] = count;
+    count += find_one(cells, reach, rank, w, found + count);
   }
+  return count;
 }
 
 }  // namespace

@@ -26,9 +26,10 @@ struct Kernels {
   bool (*step_slices)(const Sweep& k, Contacts& c, Records& r, int begin, int end);
   /// Forces on a slice that does not move; histories go on by a step.
   void (*push_slice)(const Sweep& k, Contacts& c, Records& r, int slice, SliceForce& force);
-  /// Neighbours of the grains of ranks [begin, end) into w.found, those close by first, and their numbers; one more
-  /// than most_neighbours stands for too many.
-  void (*find)(const Cells& cells, const Reach& reach, int begin, int end, ListScratch& w);
+  /// Neighbours of the grains of ranks [begin, end) one after the other into `found`, where (end - begin) x
+  /// most_neighbours have room, of each grain those close by first; where each begins and their numbers into w, one more
+  /// than most_neighbours standing for too many.  Returns how many in all.
+  int (*find)(const Cells& cells, const Reach& reach, int begin, int end, ListScratch& w, std::int32_t* found);
 };
 
 /// Those in use: the widest this machine has, unless another set was asked for.

@@ -185,7 +185,7 @@ void fill_rows(int slice, int n, Contacts& c, const ListScratch& w) {
   if (!c.rolling.empty()) std::fill(c.rolling.begin() + begin, c.rolling.begin() + end, 0.0);
   for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
     const int rank = w.rank_of_new[i];
-    const std::int32_t* const found = w.found.data() + static_cast<std::ptrdiff_t>(rank) * most_neighbours;
+    const std::int32_t* const found = w.found[rank / window].data() + w.found_first[rank];
     for (int s = 0; s < w.found_all[rank]; ++s) {
       c.neighbour[begin + s * lanes + i % lanes] = w.new_of_rank[found[s]];
     }
@@ -307,14 +307,15 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   for (Array& a : c.wall_rolling) a.resize(reach.rolling ? nobody(n) : 0, 0.0);
 
   rank_by_cell(s, cells, reach.gamma, w);
-  w.found.resize(static_cast<std::size_t>(n) * most_neighbours);
-  for (auto* a : {&w.found_close, &w.found_all, &w.old_of_new, &w.new_of_old, &w.rank_of_new, &w.new_of_rank}) {
+  w.found.resize(windows);
+  for (auto* a : {&w.found_first, &w.found_close, &w.found_all, &w.old_of_new, &w.new_of_old, &w.rank_of_new, &w.new_of_rank}) {
     a->resize(n);
   }
   const auto find = kernels().find;
   base::for_each_item(0, windows, [&](int k) {
     const int begin = k * window, end = std::min(n, begin + window);
-    find(cells, reach, begin, end, w);
+    std::int32_t found[window * most_neighbours];
+    w.found[k].assign(found, found + find(cells, reach, begin, end, w, found));
     sort_window(begin, end, s.sleep, w);
   });
   reorder_all(s, c, w);

@@ -50,7 +50,8 @@ struct ListScratch {
   std::vector<std::int32_t> cell, cell_start;  ///< of each grain; first rank of each cell
   std::vector<std::int32_t> old_of_rank, old_of_new, new_of_old, rank_of_new, new_of_rank;
   Array x, y, touching;                                     ///< by rank: centre, gamma r
-  std::vector<std::int32_t> found, found_close, found_all;  ///< by rank: neighbours (ranks), how many close by, in all
+  std::vector<std::vector<std::int32_t>> found;  ///< of each window of ranks: neighbours (ranks) grain by grain
+  std::vector<std::int32_t> found_first, found_close, found_all;  ///< by rank: place in its window, numbers
   std::vector<std::int32_t> first_before;
   base::AlignedVector<std::int32_t> neighbour_before;
   Array spring_before, rolling_before, values;
