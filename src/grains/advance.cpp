@@ -23,7 +23,7 @@ void renew(Bed& bed, const Sweep& constants) {
          static_cast<double>(bed.steps) * bed.params.step, fault.what());
   }
   spread_sleep(bed);
-  fill_records(bed.params, bed.state, bed.contacts, bed.records);
+  fill_records(bed.state, bed.contacts, bed.steps, bed.records);
 }
 
 }  // namespace
@@ -69,20 +69,20 @@ void advance(Bed& bed, int steps) {
     renew(bed, constants);
   } else {
     if (bed.records.filled_for != bed.contacts.rebuilds || bed.records.asleep.empty()) spread_sleep(bed);
-    fill_records(bed.params, bed.state, bed.contacts, bed.records);
+    fill_records(bed.state, bed.contacts, bed.steps, bed.records);
   }
   if (bed.params.sleep) wake_by_fluid(bed);
   for (int step = 0; step < steps; ++step) {
     const bool held = sweep(constants, bed.contacts, bed.records);
     ++bed.steps;
     if (!held) {
-      read_records(bed.records, bed.state);
+      read_records(constants, bed.steps, bed.records, bed.state);
       renew(bed, constants);
     }
     if (bed.params.sleep && bed.steps % between_looks == 0) look(bed, constants);
   }
   count_impulses(bed);
-  read_records(bed.records, bed.state);
+  read_records(constants, bed.steps, bed.records, bed.state);
   bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
 }
 

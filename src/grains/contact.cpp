@@ -27,50 +27,50 @@ Sweep make_sweep(const Params& p, const Circle& pipe) {
           .floor_spacing = p.length / (2 * pairs),
           .gravity = submerged_gravity(p),
           .dt = p.step,
+          .kick_r3 = p.step / mass(p, 2),
+          .spin = 1 / inertia_factor(p.inertia),
           .pipe = pipe,
           .walls = make_segments(p)};
 }
 
-void fill_slice(const Params& p, const State& s, const Contacts& c, int slice, Records& r) {
+void fill_slice(const State& s, const Contacts& c, int slice, std::int64_t steps, Records& r) {
   const int n = s.count();
-  const double mass_factor = mass(p, 1);  // a grain's mass is that times d^3
   Own& own = r.own[slice];
-  if ((slice + 1) * lanes > n) own = Own{};
+  Start& start = r.start[slice];
+  if ((slice + 1) * lanes > n) own = Own{}, start = Start{};
+  start.steps = steps;
   for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
     const int l = i % lanes;
-    const double radius = 0.5 * s.diameter[i], kick = p.step / (mass_factor * base::cube(s.diameter[i]));
+    const double radius = 0.5 * s.diameter[i];
     r.place[i] = {s.x[i], s.y[i], radius, s.omega[i] * radius};
     r.motion[i] = {s.u[i], s.v[i]};
     own.omega[l] = s.omega[i];
-    own.impulse_x[l] = s.impulse_x[i];
-    own.impulse_y[l] = s.impulse_y[i];
-    own.kick[l] = kick;
-    own.spin_kick[l] = kick / (inertia_factor(p.inertia) * radius);
-    own.fluid_u[l] = s.fluid.u[i];
-    own.fluid_v[l] = s.fluid.v[i];
+    own.push_x[l] = s.fluid.fx[i] + s.fluid.beta[i] * s.fluid.u[i];
+    own.push_y[l] = s.fluid.fy[i] + s.fluid.beta[i] * s.fluid.v[i];
     own.beta[l] = s.fluid.beta[i];
-    own.fluid_fx[l] = s.fluid.fx[i];
-    own.fluid_fy[l] = s.fluid.fy[i];
     own.x_built[l] = c.x_built[i];
     own.y_built[l] = c.y_built[i];
+    start.x[l] = s.x[i];
+    start.y[l] = s.y[i];
     if (r.asleep[slice] != 0) r.place_next[i] = r.place[i], r.motion_next[i] = r.motion[i];
   }
 }
 
-void fill_records(const Params& p, const State& s, const Contacts& c, Records& r) {
+void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r) {
   const int n = s.count(), slices = c.slices(), last = nobody(n);
-  r.place.resize(last + 1);
-  r.place_next.resize(last + 1);
-  r.motion.resize(last + 1);
-  r.motion_next.resize(last + 1);
+  for (auto* places : {&r.place, &r.place_next}) places->resize(last + 1);
+  for (auto* motions : {&r.motion, &r.motion_next}) motions->resize(last + 1);
   r.own.resize(slices);
+  r.start.resize(slices);
+  r.asleep.resize(slices, 0);
   const bool all = r.filled_for != c.rebuilds;
   base::for_each_item(0, slices, [&](int slice) {
-    if (all || r.asleep[slice] == 0) fill_slice(p, s, c, slice, r);
+    if (all || r.asleep[slice] == 0) fill_slice(s, c, slice, steps, r);
   });
   r.filled_for = c.rebuilds;
+  // Lanes without a grain have a radius all the same: a mass of nothing would spread.
   for (int i = n; i <= last; ++i) {
-    r.place[i] = r.place_next[i] = {0, far_away, 0, 0};
+    r.place[i] = r.place_next[i] = {0, far_away, 1, 0};
     r.motion[i] = r.motion_next[i] = {0, 0};
   }
   r.moved.assign((slices + slices_per_block - 1) / slices_per_block, 0);
@@ -90,22 +90,26 @@ bool sweep(const Sweep& k, Contacts& c, Records& r) {
   return std::none_of(r.moved.begin(), r.moved.end(), [](std::uint8_t moved) { return moved != 0; });
 }
 
-void read_slice(const Records& r, int slice, State& s) {
+void read_slice(const Sweep& k, std::int64_t steps, const Records& r, int slice, State& s) {
   const Own& own = r.own[slice];
+  const Start& start = r.start[slice];
+  const double time = static_cast<double>(steps - start.steps) * k.dt;
   for (int i = slice * lanes; i < std::min(s.count(), (slice + 1) * lanes); ++i) {
+    const int l = i % lanes;
     s.x[i] = r.place[i].x;
     s.y[i] = r.place[i].y;
     s.u[i] = r.motion[i].u;
     s.v[i] = r.motion[i].v;
-    s.omega[i] = own.omega[i % lanes];
-    s.impulse_x[i] = own.impulse_x[i % lanes];
-    s.impulse_y[i] = own.impulse_y[i % lanes];
+    s.omega[i] = own.omega[l];
+    // The sum of dt (push - beta u) over the steps.
+    s.impulse_x[i] += time * own.push_x[l] - own.beta[l] * nearest_image(s.x[i] - start.x[l], k.reach.length);
+    s.impulse_y[i] += time * own.push_y[l] - own.beta[l] * (s.y[i] - start.y[l]);
   }
 }
 
-void read_records(const Records& r, State& s) {
+void read_records(const Sweep& k, std::int64_t steps, const Records& r, State& s) {
   base::for_each_item(0, static_cast<int>(r.own.size()), [&](int slice) {
-    if (r.asleep[slice] == 0) read_slice(r, slice, s);
+    if (r.asleep[slice] == 0) read_slice(k, steps, r, slice, s);
   });
 }
 

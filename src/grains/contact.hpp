@@ -20,14 +20,20 @@ struct Motion {
   double u, v;  ///< [m/s]
 };
 
-/// What the eight grains of a slice keep to themselves, side by side so that a step reads one stream.
+/// What the eight grains of a slice keep to themselves, side by side so that a step reads one stream.  The fluid's
+/// force is push - beta u, so its impulse follows from the time and the way since the slice was filled: no step writes
+/// it.
 struct alignas(64) Own {
   using Eight = double[lanes];
-  Eight omega, impulse_x, impulse_y;  ///< these change with the step
-  Eight kick;                         ///< dt / m [s/kg]
-  Eight spin_kick;                    ///< dt r / I [s/(kg m)]
-  Eight fluid_u, fluid_v, beta, fluid_fx, fluid_fy;
+  Eight omega;                 ///< changes with the step
+  Eight push_x, push_y, beta;  ///< push: f + beta U [N]
   Eight x_built, y_built;
+};
+
+/// Where the slices were when they were filled.
+struct alignas(64) Start {
+  double x[lanes], y[lanes];
+  std::int64_t steps;  ///< of the bed
 };
 
 /// The grains in the form the force loop reads.  Two sets of places and motions: a step reads one and writes the other,
@@ -37,6 +43,7 @@ struct Records {
   base::AlignedVector<Place> place, place_next;
   base::AlignedVector<Motion> motion, motion_next;
   base::AlignedVector<Own> own;
+  base::AlignedVector<Start> start;
   std::vector<std::uint8_t> asleep;      ///< of each slice: it is passed over
   std::vector<std::uint8_t> turn;        ///< of each slice: it wakes or falls asleep
   std::vector<std::int64_t> slept_from;  ///< of each sleeping slice: step up to which its impulses are counted
@@ -55,6 +62,8 @@ struct Sweep {
   double floor_spacing;  ///< between the fixed grains of the floor [m]
   double gravity;        ///< of a submerged grain, downwards [m/s2]
   double dt;             ///< [s]
+  double kick_r3;        ///< dt / m of a grain times the cube of its radius [m3 s/kg]
+  double spin;           ///< m r^2 / I [-]
   Circle pipe;
   std::vector<Segment> walls;  ///< further ones
 };
@@ -63,16 +72,17 @@ struct Sweep {
 Sweep make_sweep(const Params& p, const Circle& pipe);
 
 /// Fills the records from the state, those of sleeping slices once for each new lists, and clears the pipe's impulse.
-void fill_records(const Params& p, const State& s, const Contacts& c, Records& r);
+/// steps: of the bed so far.
+void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r);
 
 /// The same for one slice, asleep or not.
-void fill_slice(const Params& p, const State& s, const Contacts& c, int slice, Records& r);
+void fill_slice(const State& s, const Contacts& c, int slice, std::int64_t steps, Records& r);
 
-/// What the steps have changed in the slices that are awake, back into the state.
-void read_records(const Records& r, State& s);
+/// What the steps have changed in the slices that are awake, back into the state, and their impulses.
+void read_records(const Sweep& k, std::int64_t steps, const Records& r, State& s);
 
 /// The same for one slice, asleep or not.
-void read_slice(const Records& r, int slice, State& s);
+void read_slice(const Sweep& k, std::int64_t steps, const Records& r, int slice, State& s);
 
 /// One step of every grain, forces and motion in one pass over the slices (symplectic: velocities, then positions):
 ///   1  F <- contacts with neighbours, floor and pipe; histories forward

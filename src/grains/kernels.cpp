@@ -240,14 +240,12 @@ template <class Form, bool across_seam>
 [[gnu::always_inline]] inline unsigned move(const Sweep& k, const Part& g, Own& own, int lane, Place* place,
                                             Motion* motion) {
   const auto get = [&](const Own::Eight& of) { return load(of + lane); };
-  const Lanes kick = get(own.kick), beta = get(own.beta);
-  const Lanes f_x = get(own.fluid_fx), f_y = get(own.fluid_fy), U = get(own.fluid_u), V = get(own.fluid_v);
-  const Lanes damped = 1.0 / (1.0 + kick * beta);
-  const Lanes u = (g.u + kick * (g.force_x + f_x + beta * U)) * damped;
-  const Lanes v = (g.v - k.dt * k.gravity + kick * (g.force_y + f_y + beta * V)) * damped;
-  store(own.impulse_x + lane, get(own.impulse_x) + k.dt * (f_x + beta * (U - u)));
-  store(own.impulse_y + lane, get(own.impulse_y) + k.dt * (f_y + beta * (V - v)));
-  const Lanes omega = get(own.omega) + get(own.spin_kick) * g.twist;
+  // Masses and inertias are made of the radius anew: large beds wait for memory, not for a division.
+  const Lanes per_r = 1.0 / g.r, kick = k.kick_r3 * (per_r * per_r * per_r);
+  const Lanes damped = 1.0 / (1.0 + kick * get(own.beta));
+  const Lanes u = (g.u + kick * (g.force_x + get(own.push_x))) * damped;
+  const Lanes v = (g.v - k.dt * k.gravity + kick * (g.force_y + get(own.push_y))) * damped;
+  const Lanes omega = get(own.omega) + k.spin * (kick * per_r) * g.twist;
   store(own.omega + lane, omega);
 
   const Lanes zero = Lanes{}, length = zero + k.reach.length;

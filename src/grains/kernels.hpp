@@ -27,8 +27,8 @@ struct Kernels {
   /// Forces on a slice that does not move; histories go on by a step.
   void (*push_slice)(const Sweep& k, Contacts& c, Records& r, int slice, SliceForce& force);
   /// Neighbours of the grains of ranks [begin, end) one after the other into `found`, where (end - begin) x
-  /// most_neighbours have room, of each grain those close by first; where each begins and their numbers into w, one more
-  /// than most_neighbours standing for too many.  Returns how many in all.
+  /// most_neighbours have room, of each grain those close by first; where each begins and their numbers into w, one
+  /// more than most_neighbours standing for too many.  Returns how many in all.
   int (*find)(const Cells& cells, const Reach& reach, int begin, int end, ListScratch& w, std::int32_t* found);
 };
 

@@ -308,7 +308,8 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
 
   rank_by_cell(s, cells, reach.gamma, w);
   w.found.resize(windows);
-  for (auto* a : {&w.found_first, &w.found_close, &w.found_all, &w.old_of_new, &w.new_of_old, &w.rank_of_new, &w.new_of_rank}) {
+  for (auto* a :
+       {&w.found_first, &w.found_close, &w.found_all, &w.old_of_new, &w.new_of_old, &w.rank_of_new, &w.new_of_rank}) {
     a->resize(n);
   }
   const auto find = kernels().find;

@@ -49,7 +49,7 @@ struct Contacts {
 struct ListScratch {
   std::vector<std::int32_t> cell, cell_start;  ///< of each grain; first rank of each cell
   std::vector<std::int32_t> old_of_rank, old_of_new, new_of_old, rank_of_new, new_of_rank;
-  Array x, y, touching;                                     ///< by rank: centre, gamma r
+  Array x, y, touching;                          ///< by rank: centre, gamma r
   std::vector<std::vector<std::int32_t>> found;  ///< of each window of ranks: neighbours (ranks) grain by grain
   std::vector<std::int32_t> found_first, found_close, found_all;  ///< by rank: place in its window, numbers
   std::vector<std::int32_t> first_before;

@@ -160,12 +160,12 @@ void wake(Bed& bed, int slice) {
     z.asleep[i] = z.calm[i] = 0;
     z.x_look[i] = bed.state.x[i], z.y_look[i] = bed.state.y[i];
   });
-  fill_slice(bed.params, bed.state, bed.contacts, slice, bed.records);
+  fill_slice(bed.state, bed.contacts, slice, bed.steps, bed.records);
 }
 
-void fall_asleep(Bed& bed, int slice) {
+void fall_asleep(Bed& bed, const Sweep& k, int slice) {
   State& s = bed.state;
-  read_slice(bed.records, slice, s);
+  read_slice(k, bed.steps, bed.records, slice, s);
   each_grain(s, slice, [&](int i) {
     s.u[i] = s.v[i] = s.omega[i] = 0;
     s.sleep.asleep[i] = 1;
@@ -173,7 +173,7 @@ void fall_asleep(Bed& bed, int slice) {
   });
   bed.records.asleep[slice] = 1;
   bed.records.slept_from[slice] = bed.steps;
-  fill_slice(bed.params, s, bed.contacts, slice, bed.records);
+  fill_slice(s, bed.contacts, slice, bed.steps, bed.records);
   each_pair(s, bed.contacts, slice, [&](std::ptrdiff_t slot, int i, int j) {
     if (bed.records.asleep[j / lanes] != 0) copy_history(bed.contacts, slot, slot_of(bed.contacts, j, i));
   });
@@ -262,7 +262,7 @@ void look(Bed& bed, const Sweep& k) {
   }
   for (int slice = 0; slice < bed.contacts.slices(); ++slice) {
     if (r.turn[slice] == 0) continue;
-    r.asleep[slice] != 0 ? wake(bed, slice) : fall_asleep(bed, slice);
+    r.asleep[slice] != 0 ? wake(bed, slice) : fall_asleep(bed, k, slice);
   }
 }
 

@@ -117,7 +117,7 @@ TEST(bed, sinking_grain_follows_linear_drag) {
   const double t = steps * bed.params.step;
   EXPECT_NEAR(body(bed, 0).v, -terminal * (1 - std::exp(-t / time)), 1e-3 * terminal);
   // The impulse of the drag is what the weight gave and the grain does not carry.
-  EXPECT_NEAR(fluid_impulse(bed.state).y, m * body(bed, 0).v + m * submerged_gravity(p) * t, 1e-12 * m * terminal);
+  EXPECT_NEAR(fluid_impulse(bed.state).y, m * body(bed, 0).v + m * submerged_gravity(p) * t, 1e-11 * m * terminal);
   advance(bed, 20 * steps);
   EXPECT_NEAR(body(bed, 0).v, -terminal, 1e-9 * terminal);
 }
@@ -130,8 +130,11 @@ TEST(bed, grain_takes_up_the_current_however_strong_the_drag) {
   bed.state.fluid.u[0] = 0.7;
   advance(bed, 3);
   EXPECT_NEAR(body(bed, 0).u, 0.7, 1e-5);
+  // The impulse is made of the way the grain went, which the rounding of its place limits: here a million times more
+  // than with a drag that a grain step resolves.
+  const double ulp = std::nextafter(0.01, 1) - 0.01;
   EXPECT_NEAR(fluid_impulse(bed.state).x, mass(bed.params, p.diameter) * body(bed, 0).u,
-              1e-9 * mass(bed.params, p.diameter));
+              4 * bed.state.fluid.beta[0] * ulp);
 }
 
 TEST(bed, momentum_of_a_loose_heap_changes_by_the_fluids_impulse_alone) {
