@@ -37,8 +37,8 @@ void add_validate(CLI::App& app, Action& chosen) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* verb =
-      app.add_subcommand("validate", "hold whole flows and beds against the literature; without NAME, list what there is");
+  CLI::App* verb = app.add_subcommand(
+      "validate", "hold whole flows and beds against the literature; without NAME, list what there is");
   verb->add_option("NAME", options->name, "what to validate");
   verb->add_option("--out", options->folder, "folder for NAME.json and its figures")->capture_default_str();
   verb->add_flag("--json", options->json, "print the numbers as JSON");
