@@ -39,6 +39,7 @@ struct Case {
   std::string grading;               ///< sieve curve as written: "0.2 mm: 10 %, 0.36 mm: 50 %"; empty: none
   double bed_thickness = 0.05;       ///< [m], level of the bed: nominal until the packing has shown the true one
   std::string walls;                 ///< for the grains, as written (walls.hpp)
+  double cut = 0;                    ///< [m], level to which a bed of a given count was cut; 0: not cut
   double measured_level = 0;         ///< [m], that true one; 0 before the packing
 
   /// Where one key can stand for another (current.theta or current.mean_speed, ...): the ones the case was given by.

@@ -56,11 +56,12 @@ void derive_sizes(Case& c) {
 /// Turns the nominal thickness of a bed into a number of grains or the other way.
 void derive_bed(Case& c) {
   const grains::Params& g = c.grains;
-  const double thickness_of_one = base::sphere_area(1) * grains::mean_power(g, 2) / (packing_fraction * g.length);
+  const double thickness_of_one = base::sphere_area(1) * grains::mean_power(g, 2) / (g.packing_fraction * g.length);
   if (c.is_given("bed.count"))
     c.bed_thickness = c.measured_level > 0 ? c.measured_level : g.count * thickness_of_one;
   else
     c.grains.count = static_cast<int>(std::lround(std::min(2.0 * most_grains, c.bed_thickness / thickness_of_one)));
+  c.grains.thickness = c.is_given("bed.thickness") ? c.bed_thickness : c.cut;
 }
 
 void derive_current(Case& c) {
@@ -170,9 +171,11 @@ void derive(Case& c) {
   c.grains = grains::derive(c.grains);
 }
 
-void derive_at_level(Case& c, double level) {
+void derive_at_level(Case& c, int count, double level) {
   // From here on the grains are what they are: their number is given, the thickness follows.
   std::replace(c.given.begin(), c.given.end(), std::string("bed.thickness"), std::string("bed.count"));
+  c.grains.count = count;
+  c.cut = c.grains.thickness;
   c.measured_level = level;
   derive(c);
 }
@@ -225,6 +228,10 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
       .fault_if(c.is_given("bed.thickness") && bed > 0 && bed < d,
                 "bed.thickness = {} m is less than one grain, grains.diameter = {} m; 0 is a case without grains", bed,
                 d);
+  keys({"bed.cut", "bed.thickness"})
+      .fault_if(c.cut > 0 && c.is_given("bed.thickness"),
+                "bed.cut = {} m contradicts bed.thickness = {} m, to which the bed is cut: it goes with bed.count",
+                c.cut, bed);
   keys({"bed.level", "bed.thickness"})
       .fault_if(c.measured_level > 0 && c.is_given("bed.thickness"),
                 "bed.level = {} m contradicts bed.thickness = {} m: it goes with bed.count", c.measured_level, bed);

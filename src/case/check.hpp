@@ -15,9 +15,6 @@ struct Sources {
   std::set<std::string, std::less<>> bad;             ///< keys whose value is missing or a fault already
 };
 
-/// 2D packing fraction of a settled bed of spheres in a plane; turns the thickness of a bed into a number of grains and
-/// back (6240 grains of 2 mm over 0.5 m: 0.048 m).  Nominal: the run measures the level after the packing.
-inline constexpr double packing_fraction = 0.82;
 /// Grain roughness of a flat bed, ks = 2.5 d.
 inline constexpr double roughness_over_diameter = 2.5;
 inline constexpr int most_grains = 100'000'000;
@@ -39,8 +36,8 @@ double scour_time_scale(double D, double d, double s, double g, double theta);
 void derive(Case& c);
 
 /// The same once the packing has shown where the bed's level truly is [m]: thickness, pipe, approaching current and
-/// times follow it; the number of grains stays and counts as given from here on.
-void derive_at_level(Case& c, double level);
+/// times follow it; the number of grains is that of the bed and counts as given from here on.
+void derive_at_level(Case& c, int count, double level);
 
 /// Adds a fault for every combination of keys that makes no sense.  Combinations with a key that is bad already are
 /// passed over.

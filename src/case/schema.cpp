@@ -215,10 +215,15 @@ void add_bed(std::vector<Row>& s) {
   const auto grains = [](auto G::*member) { return at(&Case::grains, member); };
   s.push_back(real("bed.thickness", "m", at(&Case::bed_thickness))
                   .at_least(0)
-                  .says("nominal level of the bed; the run measures the true one")
+                  .says("level of the bed: packed higher and cut to it; the run measures the true one")
                   .from("Sec. 4.4"));
   s.push_back(
       integer("bed.count", grains(&G::count)).within(0, most_grains).says("number of grains").from("Sec. 4.3: 6240"));
+  s.push_back(
+      real("bed.cut", "m", at(&Case::cut))
+          .at_least(0)
+          .says("level to which the bed is cut so that bed.count grains remain; a run writes it into its resolved "
+                "case; 0: it is not cut"));
   s.push_back(real("bed.level", "m", at(&Case::measured_level))
                   .at_least(0)
                   .says("true level of the packed bed; a run writes it into its resolved case; 0: not known yet"));
@@ -236,6 +241,15 @@ void add_bed(std::vector<Row>& s) {
   s.push_back(integer("bed.seed", grains(&G::seed))
                   .within(0, 4294967295.0)
                   .says("of the diameters and of the lattice's small shifts"));
+  s.push_back(
+      word<grains::Placing>("bed.start", grains(&G::start),
+                            {{"lattice", grains::Placing::lattice}, {"scattered", grains::Placing::scattered}})
+          .says("the grains before they settle: rows of a square lattice, or scattered as densely as they will lie")
+          .from("Sec. 4.3: lattice"));
+  s.push_back(real("bed.packing_fraction", "-", grains(&G::packing_fraction))
+                  .within(0.5, 0.9)
+                  .says("share of the plane inside the bed that grains are to fill as circles: how densely they are "
+                        "scattered, and how many a thickness needs; the run tells what came out"));
   s.push_back(real("bed.lattice_gap", "-", grains(&G::lattice_gap))
                   .within(0, 1)
                   .says("gap between the grains of the starting lattice over d")
@@ -469,6 +483,7 @@ const std::vector<Choice>& choices() {
   static const std::vector<Choice> rows{{"flow.convection", "hybrid", "bounded"},
                                         {"current.profile", "rough", "rough"},
                                         {"bed.floor", "grains", "grains"},
+                                        {"bed.start", "lattice", "scattered"},
                                         {"grains.spread", "0", "0.05"},
                                         {"grains.inertia", "disk", "sphere"},
                                         {"contact.steps", "80", "30"},

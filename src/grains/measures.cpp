@@ -61,6 +61,26 @@ double solid_thickness(const Params& p, const State& s) {
   return area / p.length;
 }
 
+Fractions packing_fractions(const Params& p, const State& s, double low, double high) {
+  // Of a circle and a sphere of radius r the parts below a height h above their centre.
+  const auto area_below = [](double r, double h) {
+    h = std::clamp(h, -r, r);
+    return r * r * std::acos(-h / r) + h * std::sqrt((r - h) * (r + h));
+  };
+  const auto volume_below = [](double r, double h) {
+    h = std::clamp(h, -r, r);
+    return base::pi / 3 * square(r + h) * (2 * r - h);
+  };
+  double area = 0, volume = 0;
+  for (int i = 0; i < s.count(); ++i) {
+    const double r = 0.5 * s.diameter[i];
+    area += area_below(r, high - s.y[i]) - area_below(r, low - s.y[i]);
+    volume += volume_below(r, high - s.y[i]) - volume_below(r, low - s.y[i]);
+  }
+  const double plane = p.length * (high - low);
+  return {area / plane, volume / (plane * p.diameter)};
+}
+
 double highest_grain(const State& s, double length, double x, double half_width) {
   double top = 0;
   for (int i = 0; i < s.count(); ++i) {

@@ -18,6 +18,12 @@ double solids_flux(const Params& p, const State& s);
 double bed_height(const State& s);
 /// Area of all grains as circles over the length [m]: the bed's thickness without pores.
 double solid_thickness(const Params& p, const State& s);
+/// What the grains fill between two heights.
+struct Fractions {
+  double area;    ///< their circles, of the plane [-]
+  double volume;  ///< their spheres, of the slab as thick as the mean diameter [-]
+};
+Fractions packing_fractions(const Params& p, const State& s, double low, double high);
 /// Upper edge of the highest grain whose centre is within `half_width` of x [m]; 0 where there is none.
 double highest_grain(const State& s, double length, double x, double half_width);
 

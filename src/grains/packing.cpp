@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <random>
 
 #include "base/fault.hpp"
@@ -15,8 +16,11 @@ using base::fail;
 
 namespace {
 
-constexpr int looks_in_a_row = 10;   ///< below settled_speed before a bed counts as settled
-constexpr double slow_enough = 100;  ///< settled speeds at which the thick fluid is taken away [-]
+constexpr int looks_in_a_row = 10;      ///< below settled_speed before a bed counts as settled
+constexpr int looks_per_fall = 10;      ///< in the time a grain falls its own diameter
+constexpr int looks_for_a_trend = 150;  ///< a bed that gets no slower from one such stretch to the next shakes
+constexpr double least_above_cut =
+    1.5;  ///< of the mean level of a bed above the level it is cut to, over the largest d [-]
 
 /// Time in which a grain falls its own diameter [s]: the measure of everything here.
 double fall_time(const Params& p) { return std::sqrt(2 * p.diameter / submerged_gravity(p)); }
@@ -36,10 +40,17 @@ void forget_impulses(Bed& bed) {
 /// A number in [0, 1) from 53 bits of the generator; std::uniform_real_distribution differs between libraries.
 double unit(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
 
+Bed bed_of_sizes(const Params& given) {
+  Bed bed = make_bed(derive(given));
+  const std::vector<double> diameters = sample_diameters(bed.params);
+  std::copy(diameters.begin(), diameters.end(), bed.state.diameter.begin());
+  return bed;
+}
+
 }  // namespace
 
 Bed lattice(const Params& given) {
-  Bed bed = make_bed(derive(given));
+  Bed bed = bed_of_sizes(given);
   const Params& p = bed.params;
   const double largest = largest_diameter(p);
   const double gap = p.lattice_gap * p.diameter;
@@ -50,9 +61,7 @@ Bed lattice(const Params& given) {
   const double pitch = p.length / columns, rise = p.gamma * largest + gap;
   std::mt19937_64 generator(p.seed);
   State& s = bed.state;
-  const std::vector<double> diameters = sample_diameters(p);
   for (int i = 0; i < p.count; ++i) {
-    s.diameter[i] = diameters[i];
     const double shift_x = 0.5 * gap * (unit(generator) - 0.5), shift_y = 0.5 * gap * (unit(generator) - 0.5);
     s.x[i] = (i % columns + 0.5) * pitch + shift_x;
     s.y[i] = (i / columns + 0.5) * rise + shift_y;
@@ -60,38 +69,153 @@ Bed lattice(const Params& given) {
   return bed;
 }
 
+Bed scattered(const Params& given) {
+  Bed bed = bed_of_sizes(given);
+  const Params p = bed.params;
+  State& s = bed.state;
+  // One grain anywhere in each of as many boxes: as even as a lattice, as irregular as chance.
+  const double area = base::sphere_area(1) * mean_power(p, 2) / p.packing_fraction, side = std::sqrt(area);
+  const int columns = std::max(1, static_cast<int>(std::lround(p.length / side)));
+  const double width = p.length / columns, height = area / width;
+  std::mt19937_64 generator(p.seed);
+  for (int i = 0; i < p.count; ++i) {
+    s.x[i] = (i % columns + unit(generator)) * width;
+    s.y[i] = (i / columns + unit(generator)) * height;
+  }
+  // They overlap: without weight and friction, in a fluid so thick that they creep, they push each other apart.
+  bed.params.gravity = 0;
+  bed.params.friction = 0;
+  bed.params.skin = 0.1;
+  thicken(bed, 10 * p.step);
+  for (int look = 0; look < 40; ++look) {
+    advance(bed, 50);
+    if (measure_contacts(bed).largest_overlap < 0.02) break;
+  }
+  thicken(bed, 0);
+  for (Array* a : {&s.u, &s.v, &s.omega}) std::fill(a->begin(), a->end(), 0.0);
+  forget_impulses(bed);
+  bed.params = p;
+  bed.contacts = {};
+  return bed;
+}
 std::vector<SettleRow> settle(Bed& bed) {
   const Params& p = bed.params;
   const double time = fall_time(p);
-  const int steps = std::max(1, static_cast<int>(0.1 * time / p.step));
+  const int steps = std::max(1, static_cast<int>(time / looks_per_fall / p.step));
   std::vector<SettleRow> rows;
   bool thick = true;
   int calm = 0;
   const std::int64_t begin = bed.steps;
+  // A bed that neither sinks nor gets slower from one stretch of looks to the next shakes: it will never rest.
+  const auto shakes = [&](int stretch) {
+    const auto last = rows.end();
+    if (static_cast<int>(rows.size()) < 2 * stretch) return false;
+    const auto slower = [](const SettleRow& a, const SettleRow& b) { return a.mean_speed < b.mean_speed; };
+    const double before = std::min_element(last - 2 * stretch, last - stretch, slower)->mean_speed;
+    const double now = std::min_element(last - stretch, last, slower)->mean_speed;
+    return now > 0.9 * before && std::abs((last - 1)->height - (last - stretch)->height) < 1e-3 * p.diameter;
+  };
+  const auto give_up = [&](const std::string& why) {
+    fail(Exit::stopped_by_limit,
+         "the bed has not come to rest after {:.3g} s: {}; mean grain speed {:.3g} m/s (asked for: below "
+         "bed.settled_speed = {} m/s), largest {:.3g} m/s",
+         rows.back().time, why, rows.back().mean_speed, p.settled_speed, rows.back().max_speed);
+  };
+  const std::string shaking = "its contacts shake and get no slower; use more contact.steps or less damping";
   thicken(bed, time);
-  while (calm < looks_in_a_row) {
+  while (true) {
     advance(bed, steps);
     const double now = static_cast<double>(bed.steps - begin) * p.step;
     rows.push_back({now, mean_speed(bed.state), max_speed(bed.state), bed_height(bed.state)});
-    if (thick && now > time && rows.back().mean_speed < slow_enough * p.settled_speed) {
+    const bool slow = rows.back().mean_speed < p.settled_speed;
+    calm = slow && now > time ? calm + 1 : 0;
+    if (calm == looks_in_a_row) {
+      if (!thick) break;
+      // Ten looks, not one: a bed that swings as a whole is slow at its turning points, too.
       thick = false;
+      calm = 0;
       thicken(bed, 0);
     }
-    calm = !thick && rows.back().mean_speed < p.settled_speed ? calm + 1 : 0;
-    if (now > p.settle_time && calm < looks_in_a_row) {
-      fail(Exit::stopped_by_limit,
-           "the bed has not come to rest within bed.settle_time = {} s: mean grain speed {} m/s (asked for: below {} "
-           "m/s), largest {} m/s; allow more time, or use more contact.steps or less damping if the contacts shake",
-           p.settle_time, rows.back().mean_speed, p.settled_speed, rows.back().max_speed);
+    if (!slow && shakes(looks_for_a_trend)) give_up(shaking);
+    if (now > p.settle_time) {
+      give_up(
+          shakes(2 * looks_in_a_row)
+              ? shaking
+              : fmt::format("it still sinks or creeps; allow more time than bed.settle_time = {} s", p.settle_time));
     }
   }
   forget_impulses(bed);
   return rows;
 }
 
+namespace {
+
+/// The bed with the grains for which keep(i) holds and, if asked for, more of them in rows above; the ids are new.
+template <class Keep>
+Bed changed(const Bed& bed, Keep&& keep, int more) {
+  const State& s = bed.state;
+  std::vector<int> kept;
+  for (int i = 0; i < s.count(); ++i) {
+    if (keep(i)) kept.push_back(i);
+  }
+  Params p = bed.params;
+  p.count = more;
+  p.seed += static_cast<unsigned>(s.count());  // not the sizes of those that lie already
+  const Bed above = more > 0 ? lattice(p) : Bed{};
+  const double floor = highest_grain(s, p.length, 0, p.length);
+  p = bed.params;
+  p.count = static_cast<int>(kept.size()) + more;
+  Bed result = make_bed(p);
+  for (int i = 0; i < p.count; ++i) {
+    const bool old = i < static_cast<int>(kept.size());
+    const State& from = old ? s : above.state;
+    const int k = old ? kept[i] : i - static_cast<int>(kept.size());
+    result.state.x[i] = from.x[k];
+    result.state.y[i] = from.y[k] + (old ? 0 : floor);
+    result.state.diameter[i] = from.diameter[k];
+  }
+  result.pipe = bed.pipe;
+  result.steps = bed.steps;
+  return result;
+}
+
+void append(std::vector<SettleRow>& rows, const std::vector<SettleRow>& later) {
+  const double before = rows.empty() ? 0 : rows.back().time;
+  for (SettleRow row : later) {
+    row.time += before;
+    rows.push_back(row);
+  }
+}
+
+/// Number of grains whose circles fill a layer of this thickness.
+int count_in_layer(const Params& p, double thickness) {
+  return static_cast<int>(
+      std::ceil(thickness * p.length * p.packing_fraction / (base::sphere_area(1) * mean_power(p, 2))));
+}
+
+}  // namespace
+
+std::vector<SettleRow> level(Bed& bed, double height) {
+  std::vector<SettleRow> rows;
+  const double needed = height + least_above_cut * largest_diameter(bed.params);
+  for (double now = bed_height(bed.state); now < needed; now = bed_height(bed.state)) {
+    const double missing = needed - now + largest_diameter(bed.params);
+    bed = changed(
+        bed, [](int) { return true; }, count_in_layer(bed.params, missing));
+    append(rows, settle(bed));
+  }
+  bed = changed(
+      bed, [&](int i) { return bed.state.y[i] < height; }, 0);
+  append(rows, settle(bed));
+  return rows;
+}
+
 Packing pack(const Params& given) {
-  Packing result{.bed = lattice(given), .convergence = {}};
+  Params p = derive(given);
+  if (p.thickness > 0) p.count = count_in_layer(p, p.thickness + 2 * least_above_cut * largest_diameter(p));
+  Packing result{.bed = p.start == Placing::lattice ? lattice(p) : scattered(p), .convergence = {}};
   result.convergence = settle(result.bed);
+  if (p.thickness > 0) append(result.convergence, level(result.bed, p.thickness));
   return result;
 }
 

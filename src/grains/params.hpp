@@ -20,6 +20,9 @@ enum class Tension { spring, none };
 enum class FrictionLimit { spring_force, total_force };
 /// The bottom: a row of fixed grains (the paper) or a smooth plane.
 enum class Floor { grains, plane };
+/// Where the grains are before they are let go: in the rows of a square lattice (the paper), or scattered as densely as
+/// they will lie.
+enum class Placing { lattice, scattered };
 
 /// A point of a sieve curve: grains finer than `diameter` [m] are the share `passing` [-] of the mass.
 struct SievePoint {
@@ -79,7 +82,10 @@ struct Params {
   Floor floor = Floor::plane;
   bool side_walls = false;      ///< walls at x = 0 and x = length instead of the period
   std::vector<Polyline> walls;  ///< further walls
-  double lattice_gap = 0.001;   ///< gap between the grains of the starting lattice over d [-]
+  Placing start = Placing::lattice;
+  double lattice_gap = 0.001;      ///< gap between the grains of the starting lattice over d [-]
+  double packing_fraction = 0.82;  ///< share of the plane inside the bed that the circles of the grains are to fill [-]
+  double thickness = 0;         ///< level that the bed is cut to when it has come to rest [m]; 0: it stays as it comes
   unsigned seed = 1;            ///< of the diameters and of the lattice's small shifts
   double settled_speed = 1e-5;  ///< packing ends when the mean grain speed stays below this [m/s]
   double settle_time = 5;       ///< longest packing [s]

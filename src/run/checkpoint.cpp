@@ -10,6 +10,7 @@
 #include "case/read.hpp"
 #include "case/resolved.hpp"
 #include "io/hdf5.hpp"
+#include "run/bed_file.hpp"
 
 namespace livebed::run {
 
@@ -29,44 +30,6 @@ void each_field(FlowState& s, Visit&& visit) {
   visit("force_u", s.load.force_u), visit("force_v", s.load.force_v);
 }
 
-/// Writes or reads one scalar: the same list of names serves both ways.
-template <class T>
-void pass(io::Group& group, const char* name, const T& value) {
-  if constexpr (std::is_same_v<T, bool>)
-    group.write(name, static_cast<std::int32_t>(value));
-  else
-    group.write(name, value);
-}
-template <class T>
-void pass(const io::Group& group, const char* name, T& value) {
-  if constexpr (std::is_same_v<T, bool>) {
-    std::int32_t number = 0;
-    group.read(name, number);
-    value = number != 0;
-  } else {
-    group.read(name, value);
-  }
-}
-
-/// Arrays of bytes travel as int32.
-template <class Vector>
-void write_array(io::Group& group, const char* name, const Vector& values) {
-  if constexpr (std::is_same_v<typename Vector::value_type, std::uint8_t>)
-    group.write(name, std::vector<std::int32_t>(values.begin(), values.end()));
-  else
-    group.write(name, values);
-}
-template <class Vector>
-void read_array(const io::Group& group, const char* name, Vector& values) {
-  if constexpr (std::is_same_v<typename Vector::value_type, std::uint8_t>) {
-    std::vector<std::int32_t> wide;
-    group.read(name, wide);
-    values.assign(wide.begin(), wide.end());
-  } else {
-    group.read(name, values);
-  }
-}
-
 template <class GroupLike, class ClockLike, class WallLike, class ProgressLike>
 void pass_scalars(GroupLike& g, ClockLike& clock, WallLike& wall, ProgressLike& p) {
   pass(g, "flow_steps", clock.flow_steps), pass(g, "grain_steps", clock.grain_steps),
@@ -78,17 +41,6 @@ void pass_scalars(GroupLike& g, ClockLike& clock, WallLike& wall, ProgressLike& 
   pass(g, "original_level", p.original.level), pass(g, "original_packed", p.original.packed);
   pass(g, "theta_sum", p.theta_sum), pass(g, "theta_time", p.theta_time), pass(g, "largest_overlap", p.largest_overlap);
   pass(g, "asleep_sum", p.asleep_sum), pass(g, "start_wall", p.start_wall);
-}
-
-template <class GroupLike, class BedLike>
-void pass_bed_scalars(GroupLike& g, BedLike& bed) {
-  pass(g, "pipe_present", bed.pipe.present), pass(g, "pipe_x", bed.pipe.x), pass(g, "pipe_y", bed.pipe.y);
-  pass(g, "pipe_diameter", bed.pipe.diameter);
-  auto& built = bed.contacts.pipe_built;
-  pass(g, "built_pipe_present", built.present), pass(g, "built_pipe_x", built.x), pass(g, "built_pipe_y", built.y);
-  pass(g, "built_pipe_diameter", built.diameter);
-  pass(g, "rebuilds", bed.contacts.rebuilds), pass(g, "steps", bed.steps);
-  pass(g, "pipe_impulse_x", bed.pipe_impulse.x), pass(g, "pipe_impulse_y", bed.pipe_impulse.y);
 }
 
 }  // namespace
@@ -108,10 +60,7 @@ void save_checkpoint(const std::filesystem::path& file, Simulation& sim, const P
         each_field(s, [&](const char* name, const base::Field& f) { flow.write(name, f); });
         pass(flow, "step", std::as_const(s.step)), pass(flow, "time", std::as_const(s.time));
         io::Group grains = root.make("grains");
-        if (bed.state.count() > 0) {
-          grains::each_array(bed, [&](const char* name, const auto& a) { write_array(grains, name, a); });
-          pass_bed_scalars(grains, std::as_const(bed));
-        }
+        if (bed.state.count() > 0) write_bed(grains, bed);
         io::Group exchange = root.make("exchange");
         coupler.each_field([&](const char* name, const base::Field& f) { exchange.write(name, f); });
         const coupling::ImpulseLedger& l = coupler.ledger();
@@ -138,15 +87,10 @@ Restored load_checkpoint(const std::filesystem::path& file) {
   casefile::Case resolved = casefile::read_text(text, file.string() + ":case");
   double level = 0;
   root.read("bed_level", level);
-  if (resolved.grains.count > 0) casefile::derive_at_level(resolved, level);
+  if (resolved.grains.count > 0) casefile::derive_at_level(resolved, resolved.grains.count, level);
 
   grains::Bed bed;
-  if (resolved.grains.count > 0) {
-    bed = grains::make_bed(resolved.grains);
-    const io::Group grains = root.open("grains");
-    grains::each_array(bed, [&](const char* name, auto& a) { read_array(grains, name, a); });
-    pass_bed_scalars(grains, bed);
-  }
+  if (resolved.grains.count > 0) bed = read_bed(root.open("grains"), resolved.grains);
   Restored result{Simulation(resolved, std::move(bed)), {}, {}};
   Simulation::each_part(result.sim,
                         [&](flow::State& s, grains::Bed&, coupling::Coupler& coupler, Clock& clock, WallTimes& wall) {

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <nlohmann/json.hpp>
 
 #include "case/resolved.hpp"
 #include "grains/measures.hpp"
@@ -87,16 +88,33 @@ base::Exit execute(const casefile::Case& given, const std::filesystem::path& fol
   io::make_folder(folder);
   const auto start = WallClock::now();
   options.say(fmt::format("packing {} grains", given.grains.count));
-  Simulation::Start ready = Simulation::prepare(given);
+  Simulation::Start ready = Simulation::prepare(given, BedCache(options.bed_cache, options.say));
   io::write_atomically(folder / "case.resolved.toml", casefile::resolved_text(ready.resolved));
   if (!ready.convergence.empty()) {
     io::TableWriter table(folder / "packing.csv", {"time_s", "mean_speed_m_s", "max_speed_m_s", "height_m"});
     for (const grains::SettleRow& row : ready.convergence)
       table.row(std::vector<double>{row.time, row.mean_speed, row.max_speed, row.height});
     const grains::ContactMeasures m = grains::measure_contacts(ready.bed);
+    const double level = ready.resolved.bed_thickness;
+    const grains::Fractions filled =
+        grains::packing_fractions(ready.resolved.grains, ready.bed.state, packed_from * level, packed_to * level);
+    options.say(fmt::format(
+        "bed at rest after {:.2f} s: {} grains, level {:.4g} m, {:.2f} contacts a grain, largest overlap {:.2g} d",
+        ready.convergence.back().time, ready.bed.params.count, level, m.per_grain, m.largest_overlap));
     options.say(
-        fmt::format("bed at rest after {:.2f} s: level {:.4g} m, {:.2f} contacts a grain, largest overlap {:.2g} d",
-                    ready.convergence.back().time, ready.resolved.bed_thickness, m.per_grain, m.largest_overlap));
+        fmt::format("inside it grains fill {:.3f} of the plane (bed.packing_fraction = {}) and {:.3f} of the slab",
+                    filled.area, ready.resolved.grains.packing_fraction, filled.volume));
+    const nlohmann::ordered_json packing = {{"grains", ready.bed.params.count},
+                                            {"level_m", level},
+                                            {"area_fraction", filled.area},
+                                            {"area_fraction_aimed_at", ready.resolved.grains.packing_fraction},
+                                            {"volume_fraction", filled.volume},
+                                            {"contacts_per_grain", m.per_grain},
+                                            {"mean_overlap_over_d", m.mean_overlap},
+                                            {"largest_overlap_over_d", m.largest_overlap},
+                                            {"mean_speed_m_s", ready.convergence.back().mean_speed},
+                                            {"grain_time_s", ready.convergence.back().time}};
+    io::write_atomically(folder / "packing.json", packing.dump(2) + "\n");
   }
   Simulation sim(ready.resolved, std::move(ready.bed));
   Progress progress;

@@ -11,6 +11,7 @@ namespace livebed::run {
 
 /// How a run is to be done; nothing of it changes its numbers.
 struct Options {
+  std::filesystem::path bed_cache;                    ///< folder of packed beds (BedCache); empty: none
   double wall_limit = 0;                              ///< stop with a checkpoint after this wall time [s]; 0 = none
   std::function<void(const std::string& line)> say;   ///< one line to the user and the log
   std::function<void(const std::string& line)> note;  ///< one line to the log alone; may be empty

@@ -52,23 +52,34 @@ std::string fastest_place(const flow::Mesh& m, const flow::State& s) {
 
 }  // namespace
 
-Simulation::Start Simulation::prepare(const casefile::Case& given) {
+Simulation::Start Simulation::prepare(const casefile::Case& given, const BedCache& cache) {
   Start start{given, {}, {}};
   if (given.grains.count == 0) return start;
   grains::Params awake = given.grains;  // nobody sleeps before the bed has come to rest
   awake.sleep = false;
-  grains::Packing packing = grains::pack(awake);
+  const std::string key = packing_key(given);
+  grains::Packing packing = cache.get(key, awake, [&] { return grains::pack(awake); });
+  const int count = packing.bed.params.count;
+  if (given.is_given("bed.count") && count != given.grains.count) {
+    base::fail(base::Exit::invalid_case,
+               "the bed cut to bed.cut = {} m holds {} grains, not bed.count = {}; give bed.thickness instead of both",
+               given.cut, count, given.grains.count);
+  }
+  casefile::derive_at_level(start.resolved, count, measured_level(given, packing.bed));
+  if (given.flow.pipe.present) {
+    const grains::Circle pipe = circle_of(start.resolved.flow.pipe);
+    const std::string with_pipe = fmt::format("{}pipe at {} m, {} m, {} m wide\n", key, pipe.x, pipe.y, pipe.diameter);
+    packing = cache.get(with_pipe, awake, [&] {
+      const double before = packing.convergence.back().time;
+      for (grains::SettleRow row : grains::place_pipe(packing.bed, pipe)) {
+        row.time += before;
+        packing.convergence.push_back(row);
+      }
+      return packing;
+    });
+  }
   start.bed = std::move(packing.bed);
   start.convergence = std::move(packing.convergence);
-  casefile::derive_at_level(start.resolved, measured_level(given, start.bed));
-  if (given.flow.pipe.present) {
-    const auto lowering = grains::place_pipe(start.bed, circle_of(start.resolved.flow.pipe));
-    const double before = start.convergence.empty() ? 0.0 : start.convergence.back().time;
-    for (grains::SettleRow row : lowering) {
-      row.time += before;
-      start.convergence.push_back(row);
-    }
-  }
   start.bed.params.sleep = given.grains.sleep;
   return start;
 }

@@ -9,6 +9,7 @@
 #include "flow/advance.hpp"
 #include "grains/advance.hpp"
 #include "grains/packing.hpp"
+#include "run/bed_cache.hpp"
 
 namespace livebed::run {
 
@@ -35,7 +36,8 @@ public:
     grains::Bed bed;
     std::vector<grains::SettleRow> convergence;
   };
-  static Start prepare(const casefile::Case& given);
+  /// Throws Fault: invalid case when bed.count is not what bed.cut leaves, and what pack and place_pipe throw.
+  static Start prepare(const casefile::Case& given, const BedCache& cache = BedCache());
 
   /// resolved: the case of `prepare`, or of a checkpoint with its bed.
   Simulation(const casefile::Case& resolved, grains::Bed bed);

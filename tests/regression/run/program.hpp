@@ -38,7 +38,7 @@ inline const std::string small_start = " --set bed.count=500 --set time.spin_up=
 inline const std::string small_case = small_box + small_start;
 /// The words that run it to a time [s] into a folder.
 inline std::string small_run(const std::string& end, const std::string& out, const std::string& start = small_start) {
-  return "run " + small_box + start + " --quiet --set time.end=" + end + " --out " + out;
+  return "run " + small_box + start + " --no-bed-cache --quiet --set time.end=" + end + " --out " + out;
 }
 
 struct Result {
@@ -51,8 +51,9 @@ class Program : public testing::Test {
 protected:
   /// Runs it to its end; the words before it are for the shell.
   Result run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + folder().string() + "' && " + before + " '" + LIVEBED_PROGRAM + "' " +
-                                arguments + " >'" + (root_ / "out").string() + "' 2>'" + (root_ / "err").string() + "'";
+    const std::string command = "cd '" + folder().string() + "' && XDG_CACHE_HOME='" + (root_ / "cache").string() +
+                                "' " + before + " '" + LIVEBED_PROGRAM + "' " + arguments + " >'" +
+                                (root_ / "out").string() + "' 2>'" + (root_ / "err").string() + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(root_ / "out"), content(root_ / "err")};
   }
@@ -60,6 +61,7 @@ protected:
   pid_t start(const std::vector<std::string>& arguments) const {
     const pid_t child = ::fork();
     if (child != 0) return child;
+    ::setenv("XDG_CACHE_HOME", (root_ / "cache").c_str(), 1);
     if (::chdir(folder().c_str()) != 0) ::_exit(127);
     std::vector<char*> words;
     std::vector<std::string> all = arguments;

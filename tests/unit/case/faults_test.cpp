@@ -167,6 +167,9 @@ const Bad bad_cases[] = {
      "bad.toml:4: coupling.kernel = 0.5 reaches 0.001 m, less than half a cell of 0.0025 m: give at least 0.625"},
     {"kernel_over_too_many_cells", "[coupling]\nkernel = 10\n[mesh]\ncell_x = 0.0005\n",
      "bad.toml:4: coupling.kernel = 10 reaches 0.02 m, more than 20 cells of 0.0005 m: give at most 5"},
+    {"cut_beside_thickness", "[bed]\nthickness = 0.05\ncut = 0.04\n",
+     "bad.toml:5: bed.cut = 0.04 m contradicts bed.thickness = 0.05 m, to which the bed is cut: it goes with "
+     "bed.count"},
     {"level_beside_thickness", "[bed]\nthickness = 0.05\nlevel = 0.04\n",
      "bad.toml:5: bed.level = 0.04 m contradicts bed.thickness = 0.05 m: it goes with bed.count"},
     // sizes
