@@ -76,10 +76,10 @@ Bed scattered(const Params& given) {
   // One grain anywhere in each of as many boxes: as even as a lattice, as irregular as chance.
   const double area = base::sphere_area(1) * mean_power(p, 2) / p.packing_fraction, side = std::sqrt(area);
   const int columns = std::max(1, static_cast<int>(std::lround(p.length / side)));
-  const double width = p.length / columns, height = area / width;
+  const double box_width = p.length / columns, height = area / box_width;
   std::mt19937_64 generator(p.seed);
   for (int i = 0; i < p.count; ++i) {
-    s.x[i] = (i % columns + unit(generator)) * width;
+    s.x[i] = (i % columns + unit(generator)) * box_width;
     s.y[i] = (i / columns + unit(generator)) * height;
   }
   // They overlap: without weight and friction, in a fluid so thick that they creep, they push each other apart.
