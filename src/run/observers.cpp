@@ -4,6 +4,7 @@
 #include <chrono>
 #include <fmt/format.h>
 
+#include "base/approach.hpp"
 #include "grains/sleep.hpp"
 #include "io/file.hpp"
 
@@ -120,7 +121,8 @@ void Observers::checkpoint(Simulation& sim) {
 
 bool Observers::at_equilibrium(const casefile::Case& c) const {
   if (c.time_scale <= 0) return false;
-  return equilibrium(times_, depths_, c.time.equilibrium_window * c.time_scale, c.time.equilibrium_change).has_value();
+  return base::equilibrium(times_, depths_, c.time.equilibrium_window * c.time_scale, c.time.equilibrium_change)
+      .has_value();
 }
 
 }  // namespace livebed::run

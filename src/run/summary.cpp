@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "base/approach.hpp"
 #include "base/loops.hpp"
 #include "base/version.hpp"
 #include "case/resolved.hpp"
@@ -35,9 +36,9 @@ void write_summary(const std::filesystem::path& folder, const Simulation& sim, c
     const std::vector<double>& column = series.column(name);
     return column.empty() ? 0.0 : column.back();
   };
-  const auto fit = fit_approach(t, S);
+  const auto fit = base::fit_approach(t, S);
   const auto steady = c.time_scale > 0
-                          ? equilibrium(t, S, c.time.equilibrium_window * c.time_scale, c.time.equilibrium_change)
+                          ? base::equilibrium(t, S, c.time.equilibrium_window * c.time_scale, c.time.equilibrium_change)
                           : std::optional<double>{};
   const WallTimes& wall = sim.wall();
   const Clock& clock = sim.clock();
@@ -54,7 +55,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& sim, c
   j["depth_under_pipe_over_D"] = last("depth_under_pipe_over_D");
   j["S_eq_over_D"] = or_null(steady, [](double v) { return v; });
   j["T_s"] = steady && fit ? nlohmann::json(fit->T) : nlohmann::json(nullptr);
-  j["fit"] = or_null(fit, [](const Approach& a) {
+  j["fit"] = or_null(fit, [](const base::Approach& a) {
     return nlohmann::json{
         {"S_eq_over_D", a.S_eq}, {"T_s", a.T}, {"error_S_eq", a.error_S_eq}, {"error_T_s", a.error_T}, {"rms", a.rms}};
   });

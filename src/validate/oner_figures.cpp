@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "base/math.hpp"
+#include "base/spectrum.hpp"
 #include "validate/contours.hpp"
 #include "validate/picture.hpp"
-#include "validate/spectrum.hpp"
 
 namespace livebed::validate {
 
@@ -110,8 +110,8 @@ std::string figure_spectra(const std::vector<Drawn>& runs) {
     Panel panel{d.label, {{"f D/U0", 0, highest}, {"power of u / (U0 D)"}, {}, 420, 280}};
     panel.chart.y.logarithmic = true;
     panel.chart.y.from = 1e-5;
-    const Spectrum above = power_spectrum(d.run->t, d.run->u_above, highest),
-                   below = power_spectrum(d.run->t, d.run->u_below, highest);
+    const base::Spectrum above = base::power_spectrum(d.run->t, d.run->u_above, highest),
+                         below = base::power_spectrum(d.run->t, d.run->u_below, highest);
     panel.chart.curves = {{"0.15 D above the pipe's rear", above_colour, above.frequency, above.power},
                           {"below it, half way to the floor", below_colour, below.frequency, below.power}};
     all.push_back(panel);

@@ -8,11 +8,11 @@
 #include "base/curves.hpp"
 #include "base/fault.hpp"
 #include "base/math.hpp"
+#include "base/spectrum.hpp"
 #include "base/version.hpp"
 #include "flow/mapping.hpp"
 #include "flow/momentum_balance.hpp"
 #include "flow/profiles.hpp"
-#include "validate/spectrum.hpp"
 
 namespace livebed::validate {
 
@@ -227,16 +227,16 @@ PipeRun run_pipe(const PipeSetup& setup, const Tell& tell) {
 
 PipeNumbers measure(const PipeRun& run) {
   PipeNumbers n;
-  n.cd = time_mean(run.t, run.drag);
-  n.cl = time_mean(run.t, run.lift);
-  n.cl_rms = time_rms(run.t, run.lift);
+  n.cd = base::time_mean(run.t, run.drag);
+  n.cl = base::time_mean(run.t, run.lift);
+  n.cl_rms = base::time_rms(run.t, run.lift);
   constexpr double highest = 1.0;  // Strouhal number
   if (n.cl_rms > steady_below) {
-    n.strouhal = peak_frequency(power_spectrum(run.t, run.lift, highest));
-    n.strouhal_wake = peak_frequency(power_spectrum(run.t, run.v_wake, highest));
+    n.strouhal = peak_frequency(base::power_spectrum(run.t, run.lift, highest));
+    n.strouhal_wake = peak_frequency(base::power_spectrum(run.t, run.v_wake, highest));
     n.periods = n.strouhal * (run.t.back() - run.t.front());
     constexpr std::size_t stretch = 5;
-    const std::vector<double> up = upward_crossings(run.t, run.lift);
+    const std::vector<double> up = base::upward_crossings(run.t, run.lift);
     for (std::size_t k = stretch; k < up.size(); ++k) {
       const double st = stretch / (up[k] - up[k - stretch]);
       n.slowest = k == stretch ? st : std::min(n.slowest, st);

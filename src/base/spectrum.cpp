@@ -1,4 +1,4 @@
-#include "validate/spectrum.hpp"
+#include "base/spectrum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,7 @@
 #include "base/curves.hpp"
 #include "base/math.hpp"
 
-namespace livebed::validate {
-
-using base::pi;
-using base::square;
+namespace livebed::base {
 
 double time_mean(const std::vector<double>& t, const std::vector<double>& signal) {
   double sum = 0;
@@ -44,7 +41,7 @@ Spectrum power_spectrum(const std::vector<double>& t, const std::vector<double>&
   for (int k = 0; k < n; ++k) {
     const double window = 0.5 - 0.5 * std::cos(2 * pi * k / n);
     window_power += square(window);
-    sample[k] = window * (base::interpolate(t, signal, t.front() + length * k / n) - mean);
+    sample[k] = window * (interpolate(t, signal, t.front() + length * k / n) - mean);
   }
   Spectrum spectrum;
   const double step = length / n;
@@ -72,4 +69,4 @@ double peak_frequency(const Spectrum& s) {
   return s.frequency[k] + shift * (s.frequency[1] - s.frequency[0]);
 }
 
-}  // namespace livebed::validate
+}  // namespace livebed::base

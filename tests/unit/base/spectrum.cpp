@@ -1,11 +1,11 @@
-#include "validate/spectrum.hpp"
+#include "base/spectrum.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "base/math.hpp"
 
-namespace livebed::validate {
+namespace livebed::base {
 namespace {
 
 /// A tone of frequency 0.237 with a weaker one of twice that and a drift, at uneven times.
@@ -13,7 +13,7 @@ void make_signal(std::vector<double>& t, std::vector<double>& s) {
   double at = 0;
   for (int k = 0; at < 100; ++k) {
     t.push_back(at);
-    s.push_back(3 + 0.002 * at + 0.5 * std::sin(2 * base::pi * 0.237 * at) + 0.1 * std::sin(4 * base::pi * 0.237 * at));
+    s.push_back(3 + 0.002 * at + 0.5 * std::sin(2 * pi * 0.237 * at) + 0.1 * std::sin(4 * pi * 0.237 * at));
     at += 0.05 + 0.03 * std::sin(0.7 * k);
   }
 }
@@ -30,8 +30,8 @@ TEST(spectrum, its_integral_is_the_variance) {
   const Spectrum spectrum = power_spectrum(t, s, 1);
   double power = 0;
   for (double p : spectrum.power) power += p * (spectrum.frequency[1] - spectrum.frequency[0]);
-  EXPECT_NEAR(power / base::square(time_rms(t, s)), 1, 0.05);
-  EXPECT_NEAR(time_rms(t, s), std::sqrt(0.5 * (0.25 + 0.01) + base::square(0.2) / 12), 0.01);
+  EXPECT_NEAR(power / square(time_rms(t, s)), 1, 0.05);
+  EXPECT_NEAR(time_rms(t, s), std::sqrt(0.5 * (0.25 + 0.01) + square(0.2) / 12), 0.01);
   EXPECT_NEAR(time_mean(t, s), 3.1, 0.01);
 }
 
@@ -50,4 +50,4 @@ TEST(spectrum, of_a_constant_has_no_peak) {
 }
 
 }  // namespace
-}  // namespace livebed::validate
+}  // namespace livebed::base

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-namespace livebed::validate {
+namespace livebed::base {
 
 /// Power spectral density of a signal, its mean taken away.
 struct Spectrum {
@@ -25,4 +25,4 @@ double time_mean(const std::vector<double>& t, const std::vector<double>& signal
 /// Root of the mean square of the signal less its mean.
 double time_rms(const std::vector<double>& t, const std::vector<double>& signal);
 
-}  // namespace livebed::validate
+}  // namespace livebed::base
