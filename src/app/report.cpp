@@ -30,7 +30,7 @@ void add_report(CLI::App& app, Action& chosen) {
         if (!options->json) fmt::print("{} (t = {} s)\n", options->png, told["time_s"].get<double>());
       } else {
         const report::Written written = report::write_report(options->folder);
-        told = {{"report", written.path.string()}, {"snapshots", written.snapshots}, {"missing", written.missing}};
+        told = {{"report", written.path.string()}, {"frames", written.frames}, {"missing", written.missing}};
         if (!options->json) {
           for (const std::string& sentence : written.missing) fmt::print("note: {}\n", sentence);
           fmt::print("{}\n", written.path.string());

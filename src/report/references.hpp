@@ -10,5 +10,7 @@ extern const std::string_view mao_depth;
 extern const std::string_view mao_profiles;
 /// Time scale of that experiment [s]: T = D^2 / sqrt(g (s-1) d^3) theta^(-5/3) / 50.
 inline constexpr double mao_time_scale = 11.5;
+/// Times of his profiles [s].
+inline constexpr double mao_profile_times[] = {11, 25};
 
 }  // namespace livebed::report

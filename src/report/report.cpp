@@ -1,52 +1,77 @@
 #include "report/report.hpp"
 
-#include "report/sections.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "report/analysis.hpp"
+#include "report/moment.hpp"
+#include "report/page.hpp"
+#include "report/page_data.hpp"
 
 namespace livebed::report {
 
 namespace {
 
-constexpr const char* style = R"css(
-:root{--ink:#1d2126;--dim:#667;--paper:#fff;--box:#f3f5f7;--rule:#d5dae0}
-@media(prefers-color-scheme:dark){:root{--ink:#e4e7ea;--dim:#9aa3ad;--paper:#14171a;--box:#20252a;--rule:#3a424a}}
-body{margin:0 auto;max-width:1240px;padding:1rem 1.5rem 4rem;font:15px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper)}
-h1{margin:.5rem 0 0;font-size:1.6rem}h2{margin:2.2rem 0 .4rem;font-size:1.2rem;border-bottom:1px solid var(--rule)}h3{margin:.8rem 0 .2rem;font-size:.95rem}
-p{margin:.4rem 0;color:var(--dim)}.origin{font-size:.85rem}
-.cards{display:flex;flex-wrap:wrap;gap:.6rem;margin:1rem 0}.card{background:var(--box);border-radius:.4rem;padding:.5rem .8rem;min-width:8rem;max-width:17rem}
-.card b{display:block;font-size:1.3rem}.card span,.card small{display:block;color:var(--dim)}.card small{font-size:.78rem}
-.missing{border-left:4px solid #d9a32e;background:var(--box);padding:.4rem .8rem}.missing ul{margin:.2rem 0;padding-left:1.2rem}
-img{display:block;width:100%;margin:.6rem 0;border:1px solid var(--rule)}
-.row{display:flex;flex-wrap:wrap;gap:.4rem 1.4rem}.chart{max-width:100%;height:auto;font-size:12px}
-.chart text{fill:var(--ink)}.axis path{stroke:var(--rule)}.axis rect{fill:none;stroke:var(--dim)}
-.legend{font-size:.85rem;padding-left:74px}.legend span{margin-right:1rem}.legend i{display:inline-block;margin-right:.35rem;vertical-align:middle}
-.legend .line{width:22px;border-top:2px solid var(--c)}.legend .dash{width:22px;border-top:2px dashed var(--c)}.legend .dot{width:8px;height:8px;border-radius:50%;background:var(--c)}
-pre{background:var(--box);padding:.8rem;overflow:auto;font-size:.82rem}summary{cursor:pointer;padding:.3rem 0}
-)css";
+constexpr std::size_t frame_bytes = 6'000'000;             ///< of all frames as they stand in the file
+constexpr std::size_t most_rows = 4000, most_lines = 400;  ///< of the series and of the bed
+
+/// All frames, or as many as fit.
+std::string freeze_frames(const RunFolder& run, std::vector<std::size_t>& chosen) {
+  if (run.fields.empty()) return "";
+  const std::size_t last = run.fields.size() - 1;
+  const auto frame = [&](std::size_t n) { return frozen(fmt::format("frame/{}", n), pack_frame(run, n)); };
+  const std::string end = frame(last);
+  const std::size_t count = std::clamp<std::size_t>(frame_bytes / end.size(), 2, last + 1);
+  std::string all;
+  for (std::size_t k = 0; k < count && last > 0; ++k) {
+    const std::size_t n = k * last / std::max<std::size_t>(count - 1, 1);
+    if (n == last) break;
+    chosen.push_back(n);
+    all += frame(n);
+  }
+  chosen.push_back(last);
+  return all + end;
+}
+
+/// Everything but the frames.
+std::string freeze(const RunFolder& run, const std::vector<std::size_t>& frames, const std::string& prefix,
+                   const NearBed& near_bed) {
+  return frozen(prefix + "run.json", describe(run, frames).dump()) +
+         frozen(prefix + "series", pack_series(run, 0, most_rows)) +
+         frozen(prefix + "bed", pack_bed(run, 0, most_lines)) +
+         frozen(prefix + "analysis.json", analyse(run, near_bed).dump());
+}
 
 }  // namespace
 
 Written write_report(const io::Path& folder) {
   const RunFolder run = read_run(folder);
-  const std::vector<Stage> shown = stages(run);
-  std::string page =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>Livebed report</title><style>";
-  page += style;
-  page += "</style></head><body>\n";
-  page += head_section(run) + depth_section(run) + snapshot_section(run, shown) + profile_section(run) +
-          series_section(run) + case_section(run);
-  page += "</body></html>\n";
+  NearBed near_bed;
+  near_bed.update(run);
+  std::vector<std::size_t> frames;
+  std::string data = freeze_frames(run, frames);
+  data += freeze(run, frames, "", near_bed) + frozen("motion", pack_motion(near_bed));
   const io::Path path = folder / "report.html";
-  io::write_atomically(path, page);
-  return {path, static_cast<int>(shown.size()), run.missing};
+  io::write_atomically(path, page(run.title, {{"mode", "report"}}, data, ""));
+  return {path, frames.size(), run.missing};
+}
+
+void write_comparison(const std::vector<io::Path>& folders, const io::Path& out_html) {
+  std::string data, title = "Livebed:";
+  for (std::size_t n = 0; n < folders.size(); ++n) {
+    const RunFolder run = read_run(folders[n]);
+    data += freeze(run, {}, fmt::format("{}/", n), NearBed());
+    title += fmt::format("{} {}", n == 0 ? "" : " beside", run.path.filename().string());
+  }
+  io::write_atomically(out_html, page(title, {{"mode", "compare"}, {"runs", folders.size()}}, data, ""));
 }
 
 double write_picture(const io::Path& folder, double time, const io::Path& out_png) {
   const RunFolder run = read_run(folder);
-  const Stage stage = nearest_stage(run, time);
-  const auto [snapshot, options] = load_stage(run, stage);
+  const Moment moment = nearest_moment(run, time);
+  const auto [snapshot, options] = load_moment(run, moment);
   io::write_atomically(out_png, draw(snapshot, options).png());
-  return stage.time;
+  return moment.time;
 }
 
 }  // namespace livebed::report

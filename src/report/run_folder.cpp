@@ -46,19 +46,35 @@ BedHistory read_bed(const io::Path& path) {
   return bed;
 }
 
-/// Title, time scale and theta of the resolved case; derived numbers stand in its table [derived].
+/// Title and numbers of the resolved case; those that follow from others stand in its table [derived].
 void read_case(RunFolder& run) {
   try {
     const toml::table table = toml::parse(run.case_text);
     run.title = table.at_path("case.title").value_or(std::string{});
-    for (const char* key : {"derived.time.scale", "time.scale"})
-      if (const auto T = table.at_path(key).value<double>(); T && *T > 0) run.time_scale = *T;
-    for (const char* key : {"derived.current.theta", "current.theta"})
-      if (const auto theta = table.at_path(key).value<double>()) run.theta = *theta;
+    const auto take = [&](const std::string& key, auto& number) {
+      for (const std::string& place : {key, "derived." + key})
+        if (const auto value = table.at_path(place).value<double>(); value && *value > 0) number = *value;
+    };
+    take("time.scale", run.time_scale);
+    take("current.theta", run.theta);
+    take("current.mean_speed", run.mean_speed);
+    take("bed.thickness", run.bed_level);
+    take("bed.level", run.bed_level);
+    take("grains.diameter", run.grain_diameter);
+    take("grains.d50", run.grain_diameter);
+    take("flow.density", run.water_density);
+    take("flow.viscosity", run.viscosity);
   } catch (const toml::parse_error& error) {
     fail(Exit::input_output, "{}/case.resolved.toml:{}: {}", run.path.string(), error.source().begin.line,
          std::string(error.description()));
   }
+}
+
+/// Is the file there?  If not, the reader is told what is missing for it.
+bool present(RunFolder& run, const char* name, const char* consequence) {
+  if (std::filesystem::exists(run.path / name)) return true;
+  run.missing.push_back(fmt::format("{} is not there: {}.", name, consequence));
+  return false;
 }
 
 }  // namespace
@@ -72,7 +88,8 @@ BedLine BedHistory::nearest(double t) const {
 
 double RunFolder::original_level() const {
   if (summary.contains("bed_level_m") && summary["bed_level_m"].is_number()) return summary["bed_level_m"];
-  if (!bed || bed->time.empty()) return std::nan("");
+  const double told = bed_level > 0 ? bed_level : std::nan("");
+  if (!bed || bed->time.empty()) return told;
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < bed->x.size(); ++i) {
@@ -80,10 +97,10 @@ double RunFolder::original_level() const {
     sum += bed->y.front()[i];
     ++count;
   }
-  return count > 0 ? sum / count : std::nan("");
+  return count > 0 ? sum / count : told;
 }
 
-RunFolder read_run(const io::Path& folder) {
+RunFolder read_outline(const io::Path& folder) {
   namespace fs = std::filesystem;
   if (!fs::is_directory(folder))
     fail(Exit::input_output, "{} is not a folder; give the folder that `livebed run` was told to write",
@@ -97,17 +114,21 @@ RunFolder read_run(const io::Path& folder) {
   read_case(run);
   if (run.title.empty()) run.title = fs::weakly_canonical(folder).filename().string();
 
-  const auto present = [&](const char* name, const char* consequence) {
-    if (fs::exists(folder / name)) return true;
-    run.missing.push_back(fmt::format("{} is not there: {}.", name, consequence));
-    return false;
-  };
-  if (present("summary.json", "the run has not finished (or was stopped), so the numbers come from its series")) {
+  if (present(run, "summary.json", "the run has not finished (or was stopped), so the numbers come from its series")) {
     run.summary = nlohmann::ordered_json::parse(io::read_file(folder / "summary.json"), nullptr, false);
     if (run.summary.is_discarded()) fail(Exit::input_output, "{}/summary.json is not valid JSON", folder.string());
   }
-  if (present("series.csv", "no curves")) run.series = io::read_table(folder / "series.csv");
-  if (present("bed.csv", "no bed lines")) run.bed = read_bed(folder / "bed.csv");
+  if (present(run, "flow.pvd", "no pictures of the flow")) run.fields = io::read_pvd(folder / "flow.pvd");
+  if (present(run, "grains.pvd", "no grains in the pictures")) run.grains = io::read_pvd(folder / "grains.pvd");
+  if (fs::exists(folder / "pipe.vtp")) run.pipe = read_pipe(folder / "pipe.vtp");
+  if (present(run, "log.txt", "no log")) run.log_end = last_lines(io::read_file(folder / "log.txt"), log_lines);
+  return run;
+}
+
+RunFolder read_run(const io::Path& folder) {
+  RunFolder run = read_outline(folder);
+  if (present(run, "series.csv", "no curves")) run.series = io::read_table(folder / "series.csv");
+  if (present(run, "bed.csv", "no bed lines")) run.bed = read_bed(folder / "bed.csv");
   if (run.bed && (run.bed->time.empty() || run.bed->x.empty())) {
     run.bed.reset();
     run.missing.emplace_back("bed.csv has no lines yet.");
@@ -116,10 +137,6 @@ RunFolder read_run(const io::Path& folder) {
     run.series.reset();
     run.missing.emplace_back("series.csv has no rows yet.");
   }
-  if (present("flow.pvd", "no pictures of the flow")) run.fields = io::read_pvd(folder / "flow.pvd");
-  if (present("grains.pvd", "no grains in the pictures")) run.grains = io::read_pvd(folder / "grains.pvd");
-  if (fs::exists(folder / "pipe.vtp")) run.pipe = read_pipe(folder / "pipe.vtp");
-  if (present("log.txt", "no log")) run.log_end = last_lines(io::read_file(folder / "log.txt"), log_lines);
   return run;
 }
 

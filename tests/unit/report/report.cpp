@@ -5,8 +5,8 @@
 
 #include "../io/expect_fault.hpp"
 #include "../io/temporary_folder.hpp"
+#include "report/moment.hpp"
 #include "report/run_folder.hpp"
-#include "report/stages.hpp"
 #include "synthetic_run.hpp"
 
 namespace livebed::report {
@@ -24,21 +24,31 @@ TEST(report, a_finished_run_becomes_one_file_that_needs_nothing_else) {
   const Written written = write_report(folder.path());
   EXPECT_EQ(written.path, folder / "report.html");
   EXPECT_TRUE(written.missing.empty());
-  EXPECT_EQ(written.snapshots, 6);
+  EXPECT_EQ(written.frames, 29u);
   const std::string page = io::read_file(written.path);
-  EXPECT_EQ(count(page, "<img "), 6u);
-  EXPECT_EQ(count(page, "src=\"data:image/png;base64,"), 6u);
-  EXPECT_EQ(count(page, "http"), 0u);
-  EXPECT_EQ(count(page, "src="), 6u);
-  EXPECT_EQ(count(page, ">nan") + count(page, "\"nan") + count(page, "Mnan") + count(page, " nan"), 0u);
-  EXPECT_EQ(count(page, "<b>0.599</b><span>S/D</span>"), 1u);
-  EXPECT_EQ(count(page, "<h1>A hole made of &lt;formulas&gt;</h1>"), 1u);
-  EXPECT_EQ(count(page, "fit 0.600 ± 0.011, T = 0.88 ± 0.02 s"), 1u);
-  EXPECT_EQ(count(page, "This run against Mao's 42 points: rms 0."), 1u);
-  EXPECT_EQ(count(page, "Brier skill 0."), 3u);  // of S/D(t/T) and of two profiles
-  EXPECT_GE(count(page, "<circle"), 42u * 2);    // Mao's points in both charts
-  EXPECT_EQ(count(page, "7 min 2 s") + count(page, "7 min 1 s"), 1u);
-  EXPECT_LT(page.size(), 6'000'000u);
+  EXPECT_EQ(count(page, "data-name=\"frame/"), 29u);
+  for (const char* name : {"run.json", "series", "bed", "analysis.json", "motion"})
+    EXPECT_EQ(count(page, fmt::format("data-name=\"{}\"", name)), 1u) << name;
+  EXPECT_EQ(count(page, "<title>A hole made of &lt;formulas&gt;</title>"), 1u);
+  EXPECT_EQ(count(page, "default-src 'none'"), 1u);  // the browser itself refuses whatever else it might ask for
+  EXPECT_EQ(count(page, "</html>"), 1u);
+  EXPECT_LT(page.size(), 8'000'000u);
+}
+
+TEST(report, of_many_large_frames_it_keeps_the_first_the_last_and_some_between) {
+  const TemporaryFolder folder;
+  SyntheticRun run;
+  run.cells = 6;
+  run.snapshots = 7;
+  run.write(folder.path());
+  const Written written = write_report(folder.path());
+  EXPECT_GE(written.frames, 2u);
+  EXPECT_LT(written.frames, 7u);
+  const std::string page = io::read_file(written.path);
+  EXPECT_EQ(count(page, "data-name=\"frame/"), written.frames);
+  EXPECT_EQ(count(page, "data-name=\"frame/0\""), 1u);
+  EXPECT_EQ(count(page, "data-name=\"frame/6\""), 1u);
+  EXPECT_LT(page.size(), 9'000'000u);
 }
 
 TEST(report, a_run_that_is_going_on_shows_what_there_is_and_says_what_is_not) {
@@ -50,33 +60,29 @@ TEST(report, a_run_that_is_going_on_shows_what_there_is_and_says_what_is_not) {
   run.write(folder.path());
   std::filesystem::remove(folder / "grains.pvd");
   const Written written = write_report(folder.path());
-  EXPECT_EQ(written.snapshots, 4);  // t/T = 0, 0.97, 1.61 and where it is now
+  EXPECT_EQ(written.frames, 7u);
   ASSERT_EQ(written.missing.size(), 2u);
   EXPECT_NE(written.missing[0].find("summary.json"), std::string::npos);
   EXPECT_NE(written.missing[1].find("grains.pvd"), std::string::npos);
-  const std::string page = io::read_file(written.path);
-  EXPECT_EQ(count(page, "Not everything is here"), 1u);
-  EXPECT_EQ(count(page, fmt::format("<b>{:.3f}</b><span>S/D</span>", run.depth(1.7) / run.D)), 1u);
 }
 
 TEST(report, a_bare_run_folder_is_enough) {
   const TemporaryFolder folder;
   io::write_atomically(folder / "case.resolved.toml", "");
   const Written written = write_report(folder.path());
-  EXPECT_EQ(written.snapshots, 0);
+  EXPECT_EQ(written.frames, 0u);
   EXPECT_EQ(written.missing.size(), 6u);
 }
 
-TEST(report, a_run_without_a_pipe_has_no_hole) {
+TEST(report, a_comparison_holds_the_curves_of_each_run_and_no_frames) {
   const TemporaryFolder folder;
-  SyntheticRun run;
-  run.with_pipe = false;
-  run.write(folder.path());
-  EXPECT_EQ(write_report(folder.path()).snapshots, 6);
-  const std::string page = io::read_file(folder / "report.html");
-  EXPECT_EQ(count(page, "Scour depth"), 0u);
-  EXPECT_EQ(count(page, "Force on the pipe"), 0u);
-  EXPECT_EQ(count(page, "Grain flux"), 1u);
+  for (const char* name : {"a", "b"}) SyntheticRun().write(folder / name);
+  write_comparison({folder / "a", folder / "b"}, folder / "both.html");
+  const std::string page = io::read_file(folder / "both.html");
+  EXPECT_EQ(count(page, "<title>Livebed: a beside b</title>"), 1u);
+  for (const char* name : {"0/run.json", "1/series", "1/bed", "0/analysis.json"})
+    EXPECT_EQ(count(page, fmt::format("data-name=\"{}\"", name)), 1u) << name;
+  EXPECT_EQ(count(page, "data-name=\"frame/"), 0u);
 }
 
 TEST(report, folders_that_are_no_run_and_damaged_files_are_refused_by_name) {
@@ -94,7 +100,7 @@ TEST(report, folders_that_are_no_run_and_damaged_files_are_refused_by_name) {
   expect_io_fault([&] { write_report(folder.path()); }, {"case.resolved.toml:1"});
 }
 
-TEST(report, stages_are_the_snapshots_nearest_to_those_of_the_paper) {
+TEST(report, the_outline_of_a_run_has_its_numbers) {
   const TemporaryFolder folder;
   const SyntheticRun synthetic;
   synthetic.write(folder.path());
@@ -102,17 +108,15 @@ TEST(report, stages_are_the_snapshots_nearest_to_those_of_the_paper) {
   ASSERT_TRUE(run.time_scale);
   EXPECT_NEAR(*run.time_scale, 0.88, 1e-12);
   EXPECT_NEAR(run.theta, 0.33, 1e-12);
+  EXPECT_NEAR(run.grain_diameter, 0.002, 1e-12);
   EXPECT_NEAR(run.original_level(), synthetic.level, 1e-12);
+  EXPECT_NEAR(read_outline(folder.path()).original_level(), synthetic.level, 1e-12);
   ASSERT_TRUE(run.pipe);
   EXPECT_NEAR(run.pipe->x, 0.2, 1e-6);
   EXPECT_NEAR(run.pipe->y, synthetic.pipe_y(), 1e-6);
   EXPECT_NEAR(run.pipe->diameter, 0.05, 1e-6);
-  const auto shown = stages(run);
-  ASSERT_EQ(shown.size(), 6u);
-  const double seconds[] = {0, 11, 18, 25, 50, 120}, interval = synthetic.last_time / 28;
-  for (int n = 0; n < 5; ++n) EXPECT_NEAR(shown[n].time, seconds[n] / 11.5 * 0.88, interval / 2 + 1e-12) << n;
-  EXPECT_EQ(shown[5].time, synthetic.last_time);  // 8.07 T: the last stage is 3 % short of the paper's
-  EXPECT_THROW(nearest_stage(RunFolder{}, 0), base::Fault);
+  EXPECT_NEAR(nearest_moment(run, 2.03).time, 2.0286, 1e-3);
+  EXPECT_THROW(nearest_moment(RunFolder{}, 0), base::Fault);
 }
 
 TEST(report, the_snapshot_shows_grains_water_pipe_and_bed_where_they_are) {
@@ -124,7 +128,7 @@ TEST(report, the_snapshot_shows_grains_water_pipe_and_bed_where_they_are) {
   EXPECT_EQ(io::read_file(folder / "a.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
 
   const RunFolder run = read_run(folder.path());
-  auto [snapshot, options] = load_stage(run, nearest_stage(run, 0));
+  auto [snapshot, options] = load_moment(run, nearest_moment(run, 0));
   options.x_from = 0;
   options.x_to = 0.5;
   options.width = 1084;  // 1000 pixels between the margins: 2 a millimetre
@@ -147,7 +151,7 @@ TEST(report, the_largest_speeds_are_those_of_the_data) {
   one.snapshots = 1;
   one.write(folder.path());
   const RunFolder run = read_run(folder.path());
-  const auto [snapshot, options] = load_stage(run, nearest_stage(run, 0));
+  const auto [snapshot, options] = load_moment(run, nearest_moment(run, 0));
   EXPECT_NEAR(largest_water_speed(snapshot), 2.1, 0.1);  // nearly twice the current on top of a cylinder
   EXPECT_NEAR(largest_grain_speed(snapshot), 0.42, 0.08);
   EXPECT_EQ(largest_grain_speed(Snapshot{snapshot.water, {}, {}}), 0);

@@ -17,6 +17,7 @@ struct SyntheticRun {
   double last_time = 7.1;
   bool finished = true, with_pipe = true;
   int snapshots = 29;
+  int cells = 1;  ///< times 200 x 80 cells of water, in each direction
 
   double pipe_y() const { return level + D / 2; }
   double depth(double t) const { return 0.6 * D * (1 - std::exp(-t / T)); }
@@ -32,10 +33,11 @@ struct SyntheticRun {
   void write(const io::Path& folder) const {
     io::make_folder(folder / "fields");
     io::make_folder(folder / "grains");
-    io::write_atomically(
-        folder / "case.resolved.toml",
-        "[case]\ntitle = \"A hole made of <formulas>\"\n\n[current]\ntheta = 0.33\n\n[derived]\ntime.scale = " +
-            std::to_string(with_pipe ? T : 0.0) + "  # s\n");
+    io::write_atomically(folder / "case.resolved.toml",
+                         "[case]\ntitle = \"A hole made of <formulas>\"\n\n[current]\ntheta = 0.33\n\n[bed]\nlevel = "
+                         "0.048\n\n[grains]\ndiameter = 0.002\n\n"
+                         "[derived]\ncurrent.mean_speed = 1.4\ntime.scale = " +
+                             std::to_string(with_pipe ? T : 0.0) + "  # s\n");
     io::write_atomically(folder / "log.txt", "started\ngrains released\n");
     if (with_pipe) io::write_vtp(folder / "pipe.vtp", io::circle_line(pipe_x, pipe_y(), D));
     write_tables(folder);
@@ -126,12 +128,13 @@ private:
   io::Grid water(double t) const {
     io::Grid grid;
     grid.time = t;
-    for (int i = 0; i <= 200; ++i) grid.x.push_back(length * i / 200);
-    for (int j = 0; j <= 80; ++j) grid.y.push_back(height * j / 80);
+    const int nx = 200 * cells, ny = 80 * cells;
+    for (int i = 0; i <= nx; ++i) grid.x.push_back(length * i / nx);
+    for (int j = 0; j <= ny; ++j) grid.y.push_back(height * j / ny);
     io::DataArray velocity{"velocity", 3, io::Store::float32, {}};
-    for (int j = 0; j < 80; ++j)
-      for (int i = 0; i < 200; ++i) {
-        const double x = (i + 0.5) * length / 200, y = (j + 0.5) * height / 80, above = std::max(0.0, y - bed(x, t));
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        const double x = (i + 0.5) * length / nx, y = (j + 0.5) * height / ny, above = std::max(0.0, y - bed(x, t));
         const double speed = 1.4 * std::min(1.0, std::log(1 + above / 0.0005) / 6), dx = x - pipe_x, dy = y - pipe_y();
         const double r2 = dx * dx + dy * dy, a2 = base::square(D / 2);
         double u = speed, v = 0;
