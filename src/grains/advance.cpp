@@ -23,7 +23,7 @@ void renew(Bed& bed, const Sweep& constants) {
          static_cast<double>(bed.steps) * bed.params.step, fault.what());
   }
   spread_sleep(bed);
-  fill_records(bed.state, bed.contacts, bed.steps, bed.records);
+  fill_records(bed.state, bed.contacts, bed.steps, bed.records, bed.scratch.memory);
 }
 
 }  // namespace
@@ -68,8 +68,8 @@ void advance(Bed& bed, int steps) {
   if (!lists_hold(bed.state, bed.contacts, constants.reach, bed.pipe)) {
     renew(bed, constants);
   } else {
-    if (bed.records.filled_for != bed.contacts.rebuilds || bed.records.asleep.empty()) spread_sleep(bed);
-    fill_records(bed.state, bed.contacts, bed.steps, bed.records);
+    if (!bed.records.hold(bed.contacts) || bed.records.asleep.empty()) spread_sleep(bed);
+    fill_records(bed.state, bed.contacts, bed.steps, bed.records, bed.scratch.memory);
   }
   if (bed.params.sleep) wake_by_fluid(bed);
   for (int step = 0; step < steps; ++step) {

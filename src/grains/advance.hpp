@@ -57,7 +57,7 @@ void each_array(BedLike& bed, Visit&& visit) {
   visit("sleep_fluid_x", z.fluid_x), visit("sleep_fluid_y", z.fluid_y), visit("sleep_load", z.load);
   visit("list_rolling", c.rolling), visit("floor_rolling", c.wall_rolling[slot_floor]);
   visit("floor_odd_rolling", c.wall_rolling[slot_floor_odd]), visit("pipe_rolling", c.wall_rolling[slot_pipe]);
-  visit("wall_first", c.wall_first), visit("wall_piece", c.wall);
+  visit("wall_place", c.wall_place), visit("wall_first", c.wall_first), visit("wall_piece", c.wall);
   visit("wall_spring", c.piece_spring), visit("wall_rolling", c.piece_rolling);
   visit("x_built", c.x_built), visit("y_built", c.y_built);
 }

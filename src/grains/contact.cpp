@@ -33,12 +33,11 @@ Sweep make_sweep(const Params& p, const Circle& pipe) {
           .walls = make_segments(p)};
 }
 
-void fill_slice(const State& s, const Contacts& c, int slice, std::int64_t steps, Records& r) {
+void fill_slice(const State& s, int slice, std::int64_t steps, Records& r) {
   const int n = s.count();
   Own& own = r.own[slice];
-  Start& start = r.start[slice];
-  if ((slice + 1) * lanes > n) own = Own{}, start = Start{};
-  start.steps = steps;
+  if ((slice + 1) * lanes > n) own = Own{};
+  r.filled_at[slice] = steps;
   for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
     const int l = i % lanes;
     const double radius = 0.5 * s.diameter[i];
@@ -48,24 +47,22 @@ void fill_slice(const State& s, const Contacts& c, int slice, std::int64_t steps
     own.push_x[l] = s.fluid.fx[i] + s.fluid.beta[i] * s.fluid.u[i];
     own.push_y[l] = s.fluid.fy[i] + s.fluid.beta[i] * s.fluid.v[i];
     own.beta[l] = s.fluid.beta[i];
-    own.x_built[l] = c.x_built[i];
-    own.y_built[l] = c.y_built[i];
-    start.x[l] = s.x[i];
-    start.y[l] = s.y[i];
     if (r.asleep[slice] != 0) r.place_next[i] = r.place[i], r.motion_next[i] = r.motion[i];
   }
 }
 
-void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r) {
+void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r, base::Arena& memory) {
   const int n = s.count(), slices = c.slices(), last = nobody(n);
-  for (auto* places : {&r.place, &r.place_next}) places->resize(last + 1);
-  for (auto* motions : {&r.motion, &r.motion_next}) motions->resize(last + 1);
-  r.own.resize(slices);
-  r.start.resize(slices);
+  const bool all = !r.hold(c);
+  if (all) {
+    const std::size_t places = last + 1, owners = slices;
+    memory.divide<Place, Place, Motion, Motion, Own, std::int64_t>({r.place, places}, {r.place_next, places},
+                                                                   {r.motion, places}, {r.motion_next, places},
+                                                                   {r.own, owners}, {r.filled_at, owners});
+  }
   r.asleep.resize(slices, 0);
-  const bool all = r.filled_for != c.rebuilds;
   base::for_each_item(0, slices, [&](int slice) {
-    if (all || r.asleep[slice] == 0) fill_slice(s, c, slice, steps, r);
+    if (all || r.asleep[slice] == 0) fill_slice(s, slice, steps, r);
   });
   r.filled_for = c.rebuilds;
   // Lanes without a grain have a radius all the same: a mass of nothing would spread.
@@ -85,25 +82,25 @@ bool sweep(const Sweep& k, Contacts& c, Records& r) {
     const int begin = block * slices_per_block;
     r.moved[block] = step_slices(k, c, r, begin, std::min(slices, begin + slices_per_block));
   });
-  r.place.swap(r.place_next);
-  r.motion.swap(r.motion_next);
+  swap(r.place, r.place_next);
+  swap(r.motion, r.motion_next);
   return std::none_of(r.moved.begin(), r.moved.end(), [](std::uint8_t moved) { return moved != 0; });
 }
 
 void read_slice(const Sweep& k, std::int64_t steps, const Records& r, int slice, State& s) {
   const Own& own = r.own[slice];
-  const Start& start = r.start[slice];
-  const double time = static_cast<double>(steps - start.steps) * k.dt;
+  const double time = static_cast<double>(steps - r.filled_at[slice]) * k.dt;
   for (int i = slice * lanes; i < std::min(s.count(), (slice + 1) * lanes); ++i) {
     const int l = i % lanes;
+    const double x_filled = s.x[i], y_filled = s.y[i];
     s.x[i] = r.place[i].x;
     s.y[i] = r.place[i].y;
     s.u[i] = r.motion[i].u;
     s.v[i] = r.motion[i].v;
     s.omega[i] = own.omega[l];
     // The sum of dt (push - beta u) over the steps.
-    s.impulse_x[i] += time * own.push_x[l] - own.beta[l] * nearest_image(s.x[i] - start.x[l], k.reach.length);
-    s.impulse_y[i] += time * own.push_y[l] - own.beta[l] * (s.y[i] - start.y[l]);
+    s.impulse_x[i] += time * own.push_x[l] - own.beta[l] * nearest_image(s.x[i] - x_filled, k.reach.length);
+    s.impulse_y[i] += time * own.push_y[l] - own.beta[l] * (s.y[i] - y_filled);
   }
 }
 

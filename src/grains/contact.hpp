@@ -27,29 +27,25 @@ struct alignas(64) Own {
   using Eight = double[lanes];
   Eight omega;                 ///< changes with the step
   Eight push_x, push_y, beta;  ///< push: f + beta U [N]
-  Eight x_built, y_built;
-};
-
-/// Where the slices were when they were filled.
-struct alignas(64) Start {
-  double x[lanes], y[lanes];
-  std::int64_t steps;  ///< of the bed
 };
 
 /// The grains in the form the force loop reads.  Two sets of places and motions: a step reads one and writes the other,
 /// so that no slice sees a neighbour that has already moved.  Between fill_records and read_records all that changes
-/// with a step lives here alone.
+/// with a step lives here alone, in memory that the making of new lists uses, too.
 struct Records {
-  base::AlignedVector<Place> place, place_next;
-  base::AlignedVector<Motion> motion, motion_next;
-  base::AlignedVector<Own> own;
-  base::AlignedVector<Start> start;
+  base::Lease<Place> place, place_next;
+  base::Lease<Motion> motion, motion_next;
+  base::Lease<Own> own;
+  base::Lease<std::int64_t> filled_at;   ///< of each slice: steps of the bed when it was filled
   std::vector<std::uint8_t> asleep;      ///< of each slice: it is passed over
   std::vector<std::uint8_t> turn;        ///< of each slice: it wakes or falls asleep
   std::vector<std::int64_t> slept_from;  ///< of each sleeping slice: step up to which its impulses are counted
   std::int64_t filled_for = -1;          ///< number of the lists (Contacts::rebuilds) all slices were filled for
   std::vector<std::uint8_t> moved;       ///< of each block of slices: some grain left its half skin
   Array pipe_impulse_x, pipe_impulse_y;  ///< of each slice since the last collection [N s]
+
+  /// Whether they have been filled since the lists were made.
+  bool hold(const Contacts& c) const { return !place.empty() && filled_for == c.rebuilds; }
 };
 
 /// The constants of a step.
@@ -73,10 +69,10 @@ Sweep make_sweep(const Params& p, const Circle& pipe);
 
 /// Fills the records from the state, those of sleeping slices once for each new lists, and clears the pipe's impulse.
 /// steps: of the bed so far.
-void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r);
+void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r, base::Arena& memory);
 
 /// The same for one slice, asleep or not.
-void fill_slice(const State& s, const Contacts& c, int slice, std::int64_t steps, Records& r);
+void fill_slice(const State& s, int slice, std::int64_t steps, Records& r);
 
 /// What the steps have changed in the slices that are awake, back into the state, and their impulses.
 void read_records(const Sweep& k, std::int64_t steps, const Records& r, State& s);

@@ -202,8 +202,10 @@ template <class Form, bool across_seam>
   const Contact law = k.pair;  // copies stay in registers
   const Reach reach = k.reach;
   Part g = part;
-  const auto push_rows = [&](int begin, int end) {
-    for (int row = begin; row < end; ++row) {
+  int row = c.first[slice], end = c.first_apart[slice];
+  const int last = c.first[slice + 1];
+  while (true) {
+    for (; row < end; ++row) {
       const std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(row) * lanes;
       const std::int32_t* const at = neighbour + slot;
       const Row pair = look<across_seam>(reach, g, place, at);
@@ -218,27 +220,22 @@ template <class Form, bool across_seam>
           [&] { return reduced_of_pair<Lanes>(law, g.r, pair.r); }, [&] { return g.w / g.r - pair.w / pair.r; },
           springs + slot, rolling + (Form::rolling ? slot : 0));
     }
-  };
-  const int apart = c.first_apart[slice], end = c.first[slice + 1];
-  push_rows(c.first[slice], apart);
-
-  // Pairs that were apart when the lists were built have no spring yet.  The first of them to touch moves them all to
-  // the front part until the next lists.
-  Mask met{};
-  for (int row = apart; row < end; ++row) {
-    met |= look<across_seam>(reach, g, place, neighbour + static_cast<std::ptrdiff_t>(row) * lanes).touching;
-  }
-  if (bits(met) != 0) {
-    push_rows(apart, end);
-    c.first_apart[slice] = end;
+    // Pairs that were apart when the lists were built have no spring yet.  The first of them to touch moves them all to
+    // the front part until the next lists.
+    Mask met{};
+    for (int apart = row; apart < last; ++apart) {
+      met |= look<across_seam>(reach, g, place, neighbour + static_cast<std::ptrdiff_t>(apart) * lanes).touching;
+    }
+    if (bits(met) == 0) break;
+    c.first_apart[slice] = end = last;
   }
   part = g;
 }
 
-/// Moves the part of a slice from `lane` on and writes its records.  Returns a bit for every lane that has left its
-/// half skin.
-[[gnu::always_inline]] inline unsigned move(const Sweep& k, const Part& g, Own& own, int lane, Place* place,
-                                            Motion* motion) {
+/// Moves the part of a slice from `lane` on and writes its records.  x_built, y_built: of its grains.  Returns a bit
+/// for every lane that has left its half skin.
+[[gnu::always_inline]] inline unsigned move(const Sweep& k, const Part& g, Own& own, int lane, const double* x_built,
+                                            const double* y_built, Place* place, Motion* motion) {
   const auto get = [&](const Own::Eight& of) { return load(of + lane); };
   // Masses and inertias are made of the radius anew: large beds wait for memory, not for a division.
   const Lanes per_r = 1.0 / g.r, kick = k.kick_r3 * (per_r * per_r * per_r);
@@ -255,7 +252,7 @@ template <class Form, bool across_seam>
   store_fours(&place->x, x, y, g.r, omega * g.r);
   store_twos(&motion->u, u, v);
 
-  const Lanes dx = nearest_image<Lanes>(x - get(own.x_built), k.reach.length), dy = y - get(own.y_built);
+  const Lanes dx = nearest_image<Lanes>(x - load(x_built), k.reach.length), dy = y - load(y_built);
   const Lanes limit = zero + base::square(0.5 * k.reach.skin);
   return bits(~(dx * dx + dy * dy <= limit));  // a NaN counts as moved
 }
@@ -275,14 +272,14 @@ template <class Form>
 [[gnu::always_inline]] inline void push_all(const Sweep& k, Part& g, Contacts& c, Records& records, int slice,
                                             int lane) {
   const unsigned near = c.near[slice];
-  const int begin = slice * lanes + lane;
   if (near & near_seam) {
     push_pairs<Form, true>(k, g, c, records, slice, lane);
   } else {
     push_pairs<Form, false>(k, g, c, records, slice, lane);
   }
-  if (near & near_floor) push_floor<Form>(k, g, c, begin);
-  if (near & near_pipe) push_pipe<Form>(k, g, c, begin, records.pipe_impulse_x[slice], records.pipe_impulse_y[slice]);
+  const int wall = c.wall_place[slice] * lanes + lane;
+  if (near & near_floor) push_floor<Form>(k, g, c, wall);
+  if (near & near_pipe) push_pipe<Form>(k, g, c, wall, records.pipe_impulse_x[slice], records.pipe_impulse_y[slice]);
   if (near & near_wall) push_pieces<Form>(k, g, c, slice, lane);
 }
 
@@ -294,7 +291,9 @@ inline bool step_slice(const Sweep& k, Contacts& c, Records& records, int slice)
     const int begin = slice * lanes + lane;
     Part g = part_of(records, begin);
     push_all<Form>(k, g, c, records, slice, lane);
-    moved |= move(k, g, records.own[slice], lane, &records.place_next[begin], &records.motion_next[begin]) << lane;
+    moved |= move(k, g, records.own[slice], lane, &c.x_built[begin], &c.y_built[begin], &records.place_next[begin],
+                  &records.motion_next[begin])
+             << lane;
   }
   const int idle = (slice + 1) * lanes - k.count;  // the last slice may have lanes without a grain
   return (moved & (0xffu >> (idle > 0 ? idle : 0))) != 0;

@@ -61,9 +61,7 @@ Cells make_cells(const State& s, double reach, double length) {
 /// Counting sort of the grains by cell; stable, so that the result depends on the state alone.
 void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch& w) {
   const int n = s.count(), count = cells.columns * cells.rows;
-  w.cell.resize(n);
-  w.old_of_rank.resize(n);
-  w.cell_start.assign(count + 1, 0);
+  std::fill(w.cell_start.begin(), w.cell_start.end(), 0);
   for (int i = 0; i < n; ++i) {
     w.cell[i] = column_of(cells, s.x[i]) * cells.rows + row_of(cells, s.y[i]);
     ++w.cell_start[w.cell[i] + 1];
@@ -74,7 +72,7 @@ void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch&
   w.cell_start[0] = 0;
 
   // Whole lanes may be read past the end.
-  for (Array* a : {&w.x, &w.y, &w.touching}) a->resize(n + lanes);
+  for (int rank = n; rank < n + lanes; ++rank) w.x[rank] = w.y[rank] = w.touching[rank] = 0;
   for (int rank = 0; rank < n; ++rank) {
     const int i = w.old_of_rank[rank];
     w.x[rank] = s.x[i];
@@ -87,7 +85,7 @@ void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch&
 /// Slices then hold grains with equally long lists, few lanes idle, and whole slices sleep.
 void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
   std::int32_t by_all[window], by_close[window];
-  const auto counting_sort = [&](const std::int32_t* from, const std::vector<std::int32_t>& key, std::int32_t* to) {
+  const auto counting_sort = [&](const std::int32_t* from, const base::Lease<std::int32_t>& key, std::int32_t* to) {
     int start[most_neighbours + 3] = {};
     for (int k = 0; k < end - begin; ++k) ++start[key[from[k]] + 1];
     std::partial_sum(start, start + most_neighbours + 3, start);
@@ -108,14 +106,14 @@ void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
   }
 }
 
-void reorder(Array& a, ListScratch& w) {
-  if (a.empty()) return;
-  w.values.resize(a.size());
-  for (std::size_t k = 0; k < w.old_of_new.size(); ++k) w.values[k] = a[w.old_of_new[k]];
-  a.swap(w.values);
+/// The array in the new order of the grains.
+template <class T>
+void reorder(T& a, ListScratch& w) {
+  std::copy(a.begin(), a.end(), w.values.begin());  // integers fit into doubles
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] = static_cast<typename T::value_type>(w.values[w.old_of_new[k]]);
 }
 
-void reorder_all(State& s, Contacts& c, ListScratch& w) {
+void reorder_all(State& s, ListScratch& w) {
   for (Array* a : {&s.x,
                    &s.y,
                    &s.u,
@@ -139,14 +137,60 @@ void reorder_all(State& s, Contacts& c, ListScratch& w) {
                    &s.sleep.load}) {
     reorder(*a, w);
   }
-  for (auto* walls : {&c.wall_spring, &c.wall_rolling})
-    for (Array& a : *walls) reorder(a, w);
-  for (auto* a : {&s.id, &s.sleep.asleep, &s.sleep.calm}) {
-    if (a->empty()) continue;
-    w.ids.resize(a->size());
-    for (std::size_t k = 0; k < a->size(); ++k) w.ids[k] = (*a)[w.old_of_new[k]];
-    a->swap(w.ids);
+  for (auto* a : {&s.id, &s.sleep.asleep, &s.sleep.calm}) reorder(*a, w);
+}
+
+/// The slot that grain i has for its neighbour j among `rows` rows from the first of its slice on; -1: it has none.
+std::ptrdiff_t find_slot(const Contacts& c, int i, int j, int rows) {
+  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[i / lanes]) * lanes + i % lanes;
+  for (int row = 0; row < rows; ++row)
+    if (c.neighbour[begin + static_cast<std::ptrdiff_t>(row) * lanes] == j)
+      return begin + static_cast<std::ptrdiff_t>(row) * lanes;
+  return -1;
+}
+
+/// Calls body(slot, i, j) once for every pair of a slice with a history.  Both sides keep the same one, but a sleeper's
+/// may be old: then the side that is awake tells.
+template <class Body>
+void each_history(const State& s, const Contacts& c, int slice, Body&& body) {
+  const auto& asleep = s.sleep.asleep;
+  for (std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
+       slot < static_cast<std::ptrdiff_t>(c.first_apart[slice]) * lanes; ++slot) {
+    if (c.neighbour[slot] >= s.count()) continue;
+    if (c.spring[slot] == 0 && (c.rolling.empty() || c.rolling[slot] == 0)) continue;
+    const int i = slice * lanes + static_cast<int>(slot % lanes), j = c.neighbour[slot];
+    if (asleep.empty() || asleep[i] == asleep[j] ? i < j : asleep[i] == 0) body(slot, i, j);
   }
+}
+
+/// Where the histories of each slice of the present lists are to go; returns how many they are.
+int count_histories(const State& s, const Contacts& c, ListScratch& w) {
+  w.remembered_first.assign(c.slices() + 1, 0);
+  base::for_each_item(0, c.slices(), [&](int slice) {
+    each_history(s, c, slice, [&](std::ptrdiff_t, int, int) { ++w.remembered_first[slice + 1]; });
+  });
+  std::partial_sum(w.remembered_first.begin(), w.remembered_first.end(), w.remembered_first.begin());
+  return w.remembered_first.back();
+}
+
+void remember(const State& s, const Contacts& c, ListScratch& w) {
+  base::for_each_item(0, c.slices(), [&](int slice) {
+    int next = w.remembered_first[slice];
+    each_history(s, c, slice, [&](std::ptrdiff_t slot, int i, int j) {
+      if (!c.rolling.empty()) w.remembered_rolling[next] = c.rolling[slot];
+      w.remembered[next++] = {i, j, c.spring[slot]};
+    });
+  });
+}
+
+/// Exactly as many entries, their contents undefined.  Grows with little to spare and without the old entries beside.
+template <class Vector>
+void fit(Vector& a, std::size_t size) {
+  if (a.capacity() < size) {
+    a = Vector();
+    a.reserve(size + size / 32);
+  }
+  a.resize(size);
 }
 
 /// Row numbers of every slice: as many as its longest list, of these as many at the front as pairs close by.
@@ -171,9 +215,9 @@ void count_rows(const State& s, Contacts& c, const ListScratch& w, bool rolling)
     c.first_apart[k] = c.first[k] + close;
     c.first[k + 1] = c.first[k] + rows;
   }
-  c.neighbour.resize(static_cast<std::size_t>(c.first[slices]) * lanes);
-  c.spring.resize(c.neighbour.size());
-  c.rolling.resize(rolling ? c.neighbour.size() : 0);
+  fit(c.neighbour, static_cast<std::size_t>(c.first[slices]) * lanes);
+  fit(c.spring, c.neighbour.size());
+  fit(c.rolling, rolling ? c.neighbour.size() : 0);
 }
 
 /// Rows of a slice: slot s of lane l is the s-th neighbour of that grain.
@@ -192,24 +236,43 @@ void fill_rows(int slice, int n, Contacts& c, const ListScratch& w) {
   }
 }
 
-/// The history of every touching pair of the slice moves from the old lists to the new.  A touching pair is in both, in
-/// the new one among those close by.
-void carry_springs(int slice, int n, Contacts& c, const ListScratch& w) {
-  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
-  const int close = c.first_apart[slice] - c.first[slice];
-  for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
-    const int old = w.old_of_new[i], old_slice = old / lanes;
-    for (int row = w.first_before[old_slice]; row < w.first_before[old_slice + 1]; ++row) {
-      const std::ptrdiff_t old_slot = static_cast<std::ptrdiff_t>(row) * lanes + old % lanes;
-      if (w.spring_before[old_slot] == 0 && (w.rolling_before.empty() || w.rolling_before[old_slot] == 0)) continue;
-      const std::int32_t other = w.new_of_old[w.neighbour_before[old_slot]];
-      for (int s = 0; s < close; ++s) {
-        const std::ptrdiff_t slot = begin + s * lanes + i % lanes;
-        if (c.neighbour[slot] != other) continue;
-        c.spring[slot] = w.spring_before[old_slot];
-        if (!c.rolling.empty() && !w.rolling_before.empty()) c.rolling[slot] = w.rolling_before[old_slot];
-      }
+/// The histories of the pairs that an old slice remembered, into the new lists.  A touching pair is among those close
+/// by.
+void carry_springs(int old_slice, Contacts& c, const ListScratch& w) {
+  const auto put = [&](int i, int j, double spring, double rolling) {
+    const std::ptrdiff_t slot = find_slot(c, i, j, c.first_apart[i / lanes] - c.first[i / lanes]);
+    if (slot < 0) return;
+    c.spring[slot] = spring;
+    if (!c.rolling.empty()) c.rolling[slot] = rolling;
+  };
+  for (int k = w.remembered_first[old_slice]; k < w.remembered_first[old_slice + 1]; ++k) {
+    const Remembered& pair = w.remembered[k];
+    const int i = w.new_of_old[pair.i], j = w.new_of_old[pair.j];
+    const double rolling = w.remembered_rolling.empty() ? 0.0 : w.remembered_rolling[k];
+    put(i, j, pair.spring, rolling);
+    put(j, i, pair.spring, -rolling);
+  }
+}
+
+/// Histories of the contacts with floor and pipe: of the slices near them only.
+void carry_wall_springs(const State& s, Contacts& c, ListScratch& w, const Reach& reach) {
+  w.wall_place_before.swap(c.wall_place);
+  c.wall_place.resize(c.slices());
+  std::int32_t places = 0;
+  for (int slice = 0; slice < c.slices(); ++slice)
+    c.wall_place[slice] = (c.near[slice] & (near_floor | near_pipe)) != 0 ? places++ : -1;
+  const auto carry = [&](Array& now, Array& before, bool wanted) {
+    before.swap(now);
+    now.assign(wanted ? static_cast<std::size_t>(places) * lanes : 0, 0.0);
+    if (now.empty() || before.empty()) return;
+    for (int i = 0; i < s.count(); ++i) {
+      const int old = w.old_of_new[i], from = w.wall_place_before[old / lanes], to = c.wall_place[i / lanes];
+      if (from >= 0 && to >= 0) now[to * lanes + i % lanes] = before[from * lanes + old % lanes];
     }
+  };
+  for (int slot = 0; slot < wall_slots; ++slot) {
+    carry(c.wall_spring[slot], w.wall_spring_before[slot], true);
+    carry(c.wall_rolling[slot], w.wall_rolling_before[slot], reach.rolling);
   }
 }
 
@@ -303,15 +366,19 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   const double largest = *std::max_element(s.diameter.begin(), s.diameter.end());
   const double list_reach = reach.gamma * largest + reach.skin;
   const Cells cells = make_cells(s, list_reach, reach.length);
-  for (Array& a : c.wall_spring) a.resize(nobody(n), 0.0);
-  for (Array& a : c.wall_rolling) a.resize(reach.rolling ? nobody(n) : 0, 0.0);
+  const std::size_t histories = c.built() ? count_histories(s, c, w) : 0;
+  const std::size_t grains = n, padded = n + lanes;
+  w.memory.divide<std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t,
+                  double, double, double, std::int32_t, std::int32_t, std::int32_t, Remembered, double, double>(
+      {w.cell, grains}, {w.cell_start, static_cast<std::size_t>(cells.columns) * cells.rows + 1},
+      {w.old_of_rank, grains}, {w.old_of_new, grains}, {w.new_of_old, grains}, {w.rank_of_new, grains},
+      {w.new_of_rank, grains}, {w.x, padded}, {w.y, padded}, {w.touching, padded}, {w.found_first, grains},
+      {w.found_close, grains}, {w.found_all, grains}, {w.remembered, histories},
+      {w.remembered_rolling, c.rolling.empty() ? 0 : histories}, {w.values, grains});
+  if (histories > 0) remember(s, c, w);
 
   rank_by_cell(s, cells, reach.gamma, w);
   w.found.resize(windows);
-  for (auto* a :
-       {&w.found_first, &w.found_close, &w.found_all, &w.old_of_new, &w.new_of_old, &w.rank_of_new, &w.new_of_rank}) {
-    a->resize(n);
-  }
   const auto find = kernels().find;
   base::for_each_item(0, windows, [&](int k) {
     const int begin = k * window, end = std::min(n, begin + window);
@@ -319,28 +386,28 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
     w.found[k].assign(found, found + find(cells, reach, begin, end, w, found));
     sort_window(begin, end, s.sleep, w);
   });
-  reorder_all(s, c, w);
+  reorder_all(s, w);
 
-  w.first_before.swap(c.first);
-  w.neighbour_before.swap(c.neighbour);
-  w.spring_before.swap(c.spring);
-  w.rolling_before.swap(c.rolling);
+  const int old_slices = c.slices();
   count_rows(s, c, w, reach.rolling);
   c.near.resize(slices);
   base::for_each_item(0, slices, [&](int slice) {
     fill_rows(slice, n, c, w);
-    if (!w.first_before.empty()) carry_springs(slice, n, c, w);
     c.near[slice] = near_what(s, slice, reach, list_reach, pipe);
   });
+  if (histories > 0) base::for_each_item(0, old_slices, [&](int slice) { carry_springs(slice, c, w); });
+  carry_wall_springs(s, c, w, reach);
   if (!walls.empty() || !c.wall.empty()) list_walls(s, c, w, reach, cells, walls);
-  c.x_built = s.x;
-  c.y_built = s.y;
+  for (auto [built, now] : {std::pair{&c.x_built, &s.x}, {&c.y_built, &s.y}}) {
+    built->assign(nobody(n), 0.0);
+    std::copy(now->begin(), now->end(), built->begin());
+  }
   c.pipe_built = pipe;
   ++c.rebuilds;
 }
 
 bool lists_hold(const State& s, const Contacts& c, const Reach& reach, const Circle& pipe) {
-  if (!c.built() || static_cast<int>(c.x_built.size()) != s.count()) return false;
+  if (!c.built() || static_cast<int>(c.x_built.size()) != nobody(s.count())) return false;
   if (pipe.present != c.pipe_built.present || pipe.diameter != c.pipe_built.diameter) return false;
   const double limit = square(0.5 * reach.skin);
   const auto within = [&](double dx, double dy) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/arena.hpp"
 #include "grains/lanes.hpp"
 #include "grains/params.hpp"
 #include "grains/state.hpp"
@@ -29,14 +30,15 @@ struct Contacts {
   std::vector<std::int32_t> first_apart;  ///< from this row of a slice on no pair has touched since the lists exist
   base::AlignedVector<std::int32_t> neighbour;  ///< the other grain, row by row; nobody() where a lane has no more
   Array spring;                                 ///< e_s of the same slot [N]
-  Array rolling;  ///< rolling spring of the same slot [N m]; empty without rolling resistance
-  std::array<Array, wall_slots> wall_spring;   ///< e_s of each grain with floor and pipe, whole slices [N]
+  Array rolling;                         ///< rolling spring of the same slot [N m]; empty without rolling resistance
+  std::vector<std::int32_t> wall_place;  ///< of each slice near floor or pipe: which of them it is; -1: no such
+  std::array<Array, wall_slots> wall_spring;   ///< e_s with floor and pipe of the slices near them [N]
   std::array<Array, wall_slots> wall_rolling;  ///< rolling springs likewise [N m]
   std::vector<std::int32_t> wall_first;        ///< as first, for the pieces of walls near a slice
   std::vector<std::int32_t> wall;              ///< as neighbour: index of the piece, -1 where a lane has no more
   Array piece_spring, piece_rolling;           ///< of the same slots [N], [N m]
   std::vector<std::uint8_t> near;              ///< of each slice, bits of Near
-  Array x_built, y_built;                      ///< centres when the lists were built [m]
+  Array x_built, y_built;                      ///< centres when the lists were built, whole slices [m]
   Circle pipe_built;                           ///< and the pipe
   std::int64_t rebuilds = 0;
 
@@ -44,20 +46,29 @@ struct Contacts {
   bool built() const { return !first.empty(); }
 };
 
+/// What a touching pair remembers while the lists are made anew.
+struct Remembered {
+  std::int32_t i, j;  ///< grains of the old order; the history is that of i
+  double spring;
+};
+
 /// Buffers of rebuild, kept so that a running simulation allocates nothing.  "Rank": the place of a grain when all are
 /// sorted by cells alone.
 struct ListScratch {
-  std::vector<std::int32_t> cell, cell_start;  ///< of each grain; first rank of each cell
-  std::vector<std::int32_t> old_of_rank, old_of_new, new_of_old, rank_of_new, new_of_rank;
-  Array x, y, touching;                          ///< by rank: centre, gamma r
+  base::Arena memory;  ///< of the arrays below while lists are made, of the records of the force loop in between
+  base::Lease<std::int32_t> cell, cell_start;  ///< of each grain; first rank of each cell
+  base::Lease<std::int32_t> old_of_rank, old_of_new, new_of_old, rank_of_new, new_of_rank;
+  base::Lease<double> x, y, touching;                             ///< by rank: centre, gamma r
+  base::Lease<std::int32_t> found_first, found_close, found_all;  ///< by rank: place in its window, numbers
+  base::Lease<Remembered> remembered;
+  base::Lease<double> remembered_rolling;
+  base::Lease<double> values;                    ///< an array in its old order
   std::vector<std::vector<std::int32_t>> found;  ///< of each window of ranks: neighbours (ranks) grain by grain
-  std::vector<std::int32_t> found_first, found_close, found_all;  ///< by rank: place in its window, numbers
-  std::vector<std::int32_t> first_before;
-  base::AlignedVector<std::int32_t> neighbour_before;
-  Array spring_before, rolling_before, values;
+  std::vector<std::int32_t> remembered_first;    ///< of each slice of the old order
+  std::vector<std::int32_t> wall_place_before;
+  std::array<Array, wall_slots> wall_spring_before, wall_rolling_before;
   std::vector<std::int32_t> wall_first_before, wall_before, wall_start, wall_in_column;
   Array piece_spring_before, piece_rolling_before;
-  std::vector<std::int32_t> ids;
 };
 
 /// A plane packing has about six; a grain with nearly that many lies on others.

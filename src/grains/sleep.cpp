@@ -160,7 +160,7 @@ void wake(Bed& bed, int slice) {
     z.asleep[i] = z.calm[i] = 0;
     z.x_look[i] = bed.state.x[i], z.y_look[i] = bed.state.y[i];
   });
-  fill_slice(bed.state, bed.contacts, slice, bed.steps, bed.records);
+  fill_slice(bed.state, slice, bed.steps, bed.records);
 }
 
 void fall_asleep(Bed& bed, const Sweep& k, int slice) {
@@ -173,7 +173,7 @@ void fall_asleep(Bed& bed, const Sweep& k, int slice) {
   });
   bed.records.asleep[slice] = 1;
   bed.records.slept_from[slice] = bed.steps;
-  fill_slice(s, bed.contacts, slice, bed.steps, bed.records);
+  fill_slice(s, slice, bed.steps, bed.records);
   each_pair(s, bed.contacts, slice, [&](std::ptrdiff_t slot, int i, int j) {
     if (bed.records.asleep[j / lanes] != 0) copy_history(bed.contacts, slot, slot_of(bed.contacts, j, i));
   });
