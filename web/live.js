@@ -24,8 +24,9 @@ export class Live {
 
   async command(word) {
     if (word === 'stop' && !confirm('Stop this run? It writes a checkpoint first; livebed resume continues it.')) return;
-    const answer = await fetch('command', { method: 'POST', headers: { 'X-Livebed-Token': this.token, 'Content-Type': 'text/plain' }, body: word });
-    this.answer.textContent = answer.ok ? `asked to ${word}` : await answer.text();
+    const answer = await fetch('command', { method: 'POST', headers: { 'X-Livebed-Token': this.token, 'Content-Type': 'text/plain' }, body: word })
+      .catch(() => ({ ok: false, text: () => 'the server does not answer' }));
+    this.answer.textContent = answer.ok ? `asked: ${word}` : await answer.text();
     setTimeout(() => { this.answer.textContent = ''; }, 4000);
   }
 
@@ -51,6 +52,8 @@ export class Live {
     }
     document.title = `${going ? `${Math.round(100 * this.bar.value)} % ` : ''}${document.title.replace(/^\d+ % /, '')}`;
   }
+
+  trouble(message) { this.told.textContent = message; }
 
   lost() {
     this.pill.textContent = 'no answer';

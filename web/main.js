@@ -128,9 +128,12 @@ async function watch() {
   const run = new Run(true), live = new Live(settings.token);
   const page = await runPage(run, live);
   let analysed = 0;
+  const parts = () => `${run.head.case !== ''} ${run.head.pipe !== null}`, built = parts();
   const look = async () => {
+    const began = Date.now();
     try {
       await run.readHead();
+      if (parts() !== built) return location.reload();  // the bed is packed: now there is a case, and a pipe
       if (run.head.server !== settings.server) return location.reload();  // another server: another token
       const fresh = await run.readTables();
       if (page.view) await page.view.update();
@@ -145,10 +148,9 @@ async function watch() {
       page.shown = true;
     } catch (error) {
       if (error instanceof TypeError) live.lost();  // what fetch throws when nobody answers
-      else throw error;
-    } finally {
-      setTimeout(look, 1000);
+      else live.trouble(error.message);
     }
+    setTimeout(look, Math.max(1000, 4 * (Date.now() - began)));  // large runs are looked at less often
   };
   await look();
 }

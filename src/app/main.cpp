@@ -56,7 +56,9 @@ int run(int argc, char** argv) {
   app::add_run(program, chosen);
   app::add_resume(program, chosen);
   app::add_keys(program, chosen);
+  app::add_watch(program, chosen);
   app::add_report(program, chosen);
+  app::add_compare(program, chosen);
   app::add_bench(program, chosen);
   app::add_validate(program, chosen);
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <unistd.h>
 
+#include "app/watch_beside.hpp"
 #include "base/version.hpp"
 
 namespace livebed::app {
@@ -70,12 +71,18 @@ void add_run_arguments(CLI::App& verb, RunArguments& arguments) {
                   "stop with a checkpoint after this many seconds of wall time (exit 6)")
       ->check(CLI::PositiveNumber);
   verb.add_flag("--quiet", arguments.quiet, "no progress");
+  CLI::Option* watch =
+      verb.add_flag("--watch", arguments.watch, "serve the run's page to this machine (livebed watch)");
+  verb.add_option("--port", arguments.port, "port of that page; without it the first free one from 7333 on")
+      ->check(CLI::Range(1, 65535))
+      ->needs(watch);
 }
 
 base::Exit run_with(const std::filesystem::path& folder, const RunArguments& arguments,
                     const std::function<base::Exit(const run::Options&)>& work) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  if (arguments.watch) fmt::print(stderr, "{}\n", watch_from_beside(folder, arguments.port));
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a failed write
   Progress progress(arguments.quiet);
   std::ofstream log;

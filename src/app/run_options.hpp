@@ -12,11 +12,14 @@ namespace livebed::app {
 struct RunArguments {
   double wall_limit = 0;
   bool quiet = false;
+  bool watch = false;
+  int port = 0;
 };
 void add_run_arguments(CLI::App& verb, RunArguments& arguments);
 
 /// Does the work with signals caught, progress shown (a bar on a terminal, a line now and then elsewhere) and every
-/// line kept in log.txt of the folder.  Exits through 128 + n when a signal stopped it.
+/// line kept in log.txt of the folder; with `watch` the page is served by a process of its own.  Exits through 128 + n
+/// when a signal stopped it.
 base::Exit run_with(const std::filesystem::path& folder, const RunArguments& arguments,
                     const std::function<base::Exit(const run::Options&)>& work);
 

@@ -16,7 +16,9 @@ void add_run(CLI::App& app, Action& chosen);
 void add_resume(CLI::App& app, Action& chosen);
 void add_check(CLI::App& app, Action& chosen);
 void add_keys(CLI::App& app, Action& chosen);
+void add_watch(CLI::App& app, Action& chosen);
 void add_report(CLI::App& app, Action& chosen);
+void add_compare(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
 void add_validate(CLI::App& app, Action& chosen);
 

@@ -2,11 +2,14 @@
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "case/resolved.hpp"
 #include "grains/measures.hpp"
 #include "io/file.hpp"
+#include "run/control.hpp"
 #include "run/observers.hpp"
 #include "run/summary.hpp"
 
@@ -23,10 +26,10 @@ double seconds_since(WallClock::time_point start) {
 
 /// Steps until the end, a signal or a limit; writes what is due and the summary.  begun: when the program's work began,
 /// which is what the wall-time limit counts from.
-base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::filesystem::path& folder,
+base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::filesystem::path& folder, Control& control,
                           WallClock::time_point begun, const Options& options) {
   const casefile::Case& c = sim.resolved();
-  const auto start = WallClock::now();
+  auto start = WallClock::now();  // of the steps, less the pauses
   const double time_start = sim.time();
   auto last_word = start;
   const auto finish = [&](const char* why, base::Exit code) {
@@ -35,12 +38,48 @@ base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::file
     options.say(fmt::format("ended at t = {:.4g} s: {}", sim.time(), why));
     return code;
   };
-  const auto show = [&] {
-    if (!options.progress || seconds_since(last_word) < 0.2) return;
-    last_word = WallClock::now();
+  const auto status = [&] {
     const double speed = (sim.time() - time_start) / seconds_since(start);
-    options.progress(sim.time(), c.time.end, observers.scour_depth(), speed,
-                     speed > 0 ? (c.time.end - sim.time()) / speed : 0);
+    return Status{
+        sim.clock().released ? "digging" : "spin-up",     sim.time(), c.time.end, observers.scour_depth(), speed,
+        speed > 0 ? (c.time.end - sim.time()) / speed : 0};
+  };
+  const auto show = [&] {
+    if (seconds_since(last_word) < 0.2) return;
+    last_word = WallClock::now();
+    const Status s = status();
+    control.tell(s);
+    if (options.progress) options.progress(s.time, s.end, s.S_over_D, s.speed, s.left);
+  };
+  // Does what the command file says; paused, it waits there for the next word.
+  const auto listen = [&] {
+    std::optional<WallClock::time_point> paused;
+    do {
+      if (const auto word = control.take()) {
+        const auto command = command_of(*word);
+        if (!command) {
+          options.say(fmt::format("the command file says \"{}\"; there are {}", *word, command_words));
+        } else if (*command == Command::checkpoint) {
+          observers.checkpoint(sim);
+          options.say(fmt::format("checkpoint at t = {:.4g} s, as asked", sim.time()));
+        } else if (*command == Command::pause && !paused) {
+          paused = WallClock::now();
+          options.say(fmt::format("paused at t = {:.4g} s", sim.time()));
+        } else if (*command == Command::go && paused) {
+          start += WallClock::now() - *paused;
+          paused.reset();
+          options.say("going on");
+        } else if (*command == Command::stop) {
+          request_stop(SIGTERM);
+        }
+      }
+      if (!paused) return;
+      Status waiting = status();
+      waiting.phase = "paused";
+      control.tell(waiting);
+      const timespec moment{0, 20'000'000};
+      ::nanosleep(&moment, nullptr);
+    } while (!stop_requested);
   };
   const auto limit_reached = [&] { return options.wall_limit > 0 && seconds_since(begun) > options.wall_limit; };
   while (sim.time() < c.time.end || !sim.clock().released) {
@@ -67,6 +106,7 @@ base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::file
       options.note(fmt::format("t = {:.5g} s: {} outer iterations, residuals {}", sim.time(),
                                flow_step.outer_iterations, flow_step.residuals.text()));
     if (sim.clock().released) observers.observe(sim);
+    listen();
     if (stop_requested) return finish("stopped by a signal", base::Exit::signal);
     if (limit_reached()) return finish("stopped by the wall-time limit", base::Exit::stopped_by_limit);
     if (c.time.stop_at_equilibrium && observers.at_equilibrium(c)) return finish("equilibrium", base::Exit::ok);
@@ -86,6 +126,8 @@ base::Exit execute(const casefile::Case& given, const std::filesystem::path& fol
                "{} exists already; give another folder with --out, or continue it with: livebed resume {}",
                folder.string(), folder.string());
   io::make_folder(folder);
+  Control control(folder);
+  control.tell({.phase = "packing"}, true);
   const auto start = WallClock::now();
   options.say(fmt::format("packing {} grains", given.grains.count));
   Simulation::Start ready = Simulation::prepare(given, BedCache(options.bed_cache, options.say));
@@ -124,7 +166,7 @@ base::Exit execute(const casefile::Case& given, const std::filesystem::path& fol
                           c.time.spin_up, sim.flow().mesh().nx, sim.flow().mesh().ny, c.flow.current.shear_velocity,
                           c.theta));
   Observers observers(folder, sim, progress);
-  return advance_to_end(sim, observers, folder, start, options);
+  return advance_to_end(sim, observers, folder, control, start, options);
 }
 
 base::Exit resume(const std::filesystem::path& folder, std::optional<double> until, const Options& options) {
@@ -133,6 +175,7 @@ base::Exit resume(const std::filesystem::path& folder, std::optional<double> unt
   if (files.empty())
     base::fail(base::Exit::input_output, "{} holds no checkpoint to resume (looked in {})", folder.string(),
                (folder / "checkpoints").string());
+  Control control(folder);
   std::optional<Restored> restored;
   while (!restored) {
     try {
@@ -156,7 +199,7 @@ base::Exit resume(const std::filesystem::path& folder, std::optional<double> unt
   options.say(fmt::format("resuming at t = {:.4g} s from {}", restored->sim.time(), files.back().string()));
   if (!restored->note.empty()) options.say("note: " + restored->note + "; results may differ in the last bits");
   Observers observers(folder, restored->sim, restored->progress);
-  return advance_to_end(restored->sim, observers, folder, start, options);
+  return advance_to_end(restored->sim, observers, folder, control, start, options);
 }
 
 }  // namespace livebed::run
