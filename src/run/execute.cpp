@@ -82,6 +82,7 @@ base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::file
     } while (!stop_requested);
   };
   const auto limit_reached = [&] { return options.wall_limit > 0 && seconds_since(begun) > options.wall_limit; };
+  control.tell(status(), true);
   while (sim.time() < c.time.end || !sim.clock().released) {
     try {
       if (sim.clock().released) {
@@ -92,6 +93,7 @@ base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::file
       // In the same round as the last step before it: the row of t = 0 tells of that step.
       if (!sim.clock().released && sim.time() >= 0) {
         sim.release();
+        control.tell(status(), true);
         options.say(fmt::format(
             "grains released; end at t = {:.4g} s{}", c.time.end,
             c.time_scale > 0 ? fmt::format(" = {:.3g} T, T = {:.3g} s", c.time.end / c.time_scale, c.time_scale) : ""));
@@ -171,11 +173,12 @@ base::Exit execute(const casefile::Case& given, const std::filesystem::path& fol
 
 base::Exit resume(const std::filesystem::path& folder, std::optional<double> until, const Options& options) {
   const auto start = WallClock::now();
+  std::optional<Control> control;
+  if (std::filesystem::is_directory(folder)) control.emplace(folder);
   std::vector<std::filesystem::path> files = list_checkpoints(folder), damaged;
   if (files.empty())
     base::fail(base::Exit::input_output, "{} holds no checkpoint to resume (looked in {})", folder.string(),
                (folder / "checkpoints").string());
-  Control control(folder);
   std::optional<Restored> restored;
   while (!restored) {
     try {
@@ -199,7 +202,7 @@ base::Exit resume(const std::filesystem::path& folder, std::optional<double> unt
   options.say(fmt::format("resuming at t = {:.4g} s from {}", restored->sim.time(), files.back().string()));
   if (!restored->note.empty()) options.say("note: " + restored->note + "; results may differ in the last bits");
   Observers observers(folder, restored->sim, restored->progress);
-  return advance_to_end(restored->sim, observers, folder, control, start, options);
+  return advance_to_end(restored->sim, observers, folder, *control, start, options);
 }
 
 }  // namespace livebed::run

@@ -47,14 +47,14 @@ protected:
 };
 
 TEST_F(Control, pauses_writes_checkpoints_and_goes_on_to_the_same_end) {
-  ASSERT_EQ(run("--threads 1 " + small_run("0.15", "whole")).exit, 0);
-  const pid_t child = begin("led", "0.15");
+  ASSERT_EQ(run("--threads 1 " + small_run("0.4", "whole")).exit, 0);
+  const pid_t child = begin("led", "0.4");
   ASSERT_TRUE(in_phase("led", "digging"));
   EXPECT_TRUE(run::is_running(*this / "led"));
   say("led", "pause");
   ASSERT_TRUE(in_phase("led", "paused"));
   const double paused_at = status("led")["t_s"];
-  EXPECT_LT(paused_at, 0.15);
+  EXPECT_LT(paused_at, 0.4);
   fs::remove_all(*this / "led/checkpoints");
   fs::create_directory(*this / "led/checkpoints");
   say("led", "checkpoint");
