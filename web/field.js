@@ -4,7 +4,7 @@ import { numbers } from './pack.js';
 
 /// What can be drawn: unit, colours, whether zero is the middle of the scale.
 export const quantities = {
-  speed: { name: 'speed of the water', unit: 'm/s', map: 'viridis', of: (f) => f.u.map((u, n) => Math.hypot(u, f.v[n])) },
+  speed: { name: 'speed of the water', unit: 'm/s', map: 'viridis', of: (f) => f.u.map((u, n) => Math.sqrt(u * u + f.v[n] * f.v[n])) },
   vorticity: { name: 'vorticity', unit: '1/s', map: 'balance', balanced: true, of: vorticity },
   pressure: { name: 'pressure', unit: 'Pa', map: 'balance', balanced: true, of: (f) => f.p && centred(f.p) },
   solid: { name: 'solid fraction', unit: '-', map: 'deep', from: 0, to: 0.65, of: (f) => f.solid },

@@ -41,7 +41,7 @@ export class Live {
     const words = [];
     if (going && status.phase !== 'packing') words.push(`t = ${told(t, 4)} of ${told(status.end_s, 4)} s`, `S/D = ${told(status.S_over_D, 3)}`);
     if (going && status.phase === 'digging' && status.speed > 0) words.push(`${told(status.speed, 2)} s/s`, `${duration(status.left_s)} left`);
-    if (!going && !summary?.ended) words.push('its program has ended without a word; livebed resume goes on from the last checkpoint');
+    if (!going && !summary?.ended) words.push('its program is gone; livebed resume goes on');
     this.told.textContent = words.join(' · ');
     for (const button of this.buttons) {
       button.disabled = !going || status.phase === 'packing';

@@ -77,13 +77,8 @@ async function runPage(run, live) {
   const numbers = document.createElement('div');
   numbers.className = 'cards';
   main.append(numbers);
-  let view = null;
-  try {
-    view = new View(run);
-    main.append(view.element);
-  } catch (error) {
-    section('Grains and flow').insertAdjacentHTML('beforeend', `<p>Not drawn: ${escaped(error.message)}.</p>`);
-  }
+  const view = new View(run);
+  main.append(view.element);
   const depth = section('Scour depth', grid(depthFigures(run)));
   const stages = document.createElement('div');
   depth.append(stages);
@@ -115,7 +110,6 @@ async function report() {
   const page = await runPage(run, null);
   await Promise.all([run.readTables(), run.readAnalysis(), run.readMotion()]);
   page.refresh();
-  if (!page.view) return;
   await page.view.update();
   const { T_s, frames, measured } = run.head, last = frames.at(-1)?.t_s;
   if (last === undefined) return;
@@ -136,7 +130,7 @@ async function watch() {
       if (parts() !== built) return location.reload();  // the bed is packed: now there is a case, and a pipe
       if (run.head.server !== settings.server) return location.reload();  // another server: another token
       const fresh = await run.readTables();
-      if (page.view) await page.view.update();
+      await page.view.update();
       if (fresh && Date.now() - analysed > 3000) {
         analysed = Date.now();
         await run.readAnalysis();
@@ -173,6 +167,9 @@ addEventListener('resize', () => {
   for (const figure of figures) figure.draw();
   window.dispatchEvent(new Event('redraw'));
 });
+
+// On paper nothing can be unfolded.
+addEventListener('beforeprint', () => { for (const fold of document.querySelectorAll('details')) fold.open = true; });
 
 ({ report, live: watch, compare })[settings.mode]().catch((error) => {
   console.error(error);

@@ -1,189 +1,109 @@
-// Field and grains of a frame drawn by WebGL2: the field as a texture on the stretched grid, each grain as a disc.
+// Field and grains of a frame as pixels of a canvas.  Pixels are made by the processor: 200,000 grains of about a pixel
+// take less time so than as points of a graphics card that is emulated, and look the same everywhere, also on paper.
 
 import { palette } from './colour.js';
 
-const lookups = 2048;  // entries that turn a place into a column or row of the grid
-
-const fieldVertex = `#version 300 es
-uniform vec4 window; out vec2 place;
-void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  place = mix(window.xy, window.zw, corner);
-  gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);
-}`;
-const fieldFragment = `#version 300 es
-precision highp float;
-uniform sampler2D field, columns, rows, colours; uniform vec4 box; uniform vec3 paper; in vec2 place; out vec4 colour;
-float at(sampler2D table, float s) {
-  float k = clamp(s, 0.0, 1.0) * float(${lookups - 1}), n = min(floor(k), float(${lookups - 2}));
-  return mix(texelFetch(table, ivec2(int(n), 0), 0).r, texelFetch(table, ivec2(int(n) + 1, 0), 0).r, k - n);
+const colours = new Map();  // of each map, as pixels (A B G R)
+function pixelsOf(map) {
+  if (!colours.has(map)) colours.set(map, new Uint32Array(palette(map).buffer));
+  return colours.get(map);
 }
-void main() {
-  vec2 s = (place - box.xy) / (box.zw - box.xy);
-  if (any(lessThan(s, vec2(0.0))) || any(greaterThan(s, vec2(1.0)))) { colour = vec4(paper, 1.0); return; }
-  float value = texture(field, vec2(at(columns, s.x), at(rows, s.y))).r;
-  colour = vec4(texture(colours, vec2((255.0 * value + 0.5) / 256.0, 0.5)).rgb, 1.0);
-}`;
-// Points where discs are small: one vertex a grain; above 60 pixels, which not every machine draws as a point, four.
-const grainVertex = `#version 300 es
-uniform vec4 window, span; uniform vec2 diameters, pixels; uniform float fastest, slow; uniform bool quads;
-in vec2 grain; in float size, speed;
-out vec2 offset; out float radius, swift;
-void main() {
-  vec2 centre = mix(span.xy, span.zw, grain);
-  float d = mix(diameters.x, diameters.y, size);
-  vec2 scale = pixels / (window.zw - window.xy);
-  radius = max(0.5 * d * scale.x, 0.6);
-  swift = (slow + (fastest - slow) * speed);
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  offset = corner * (radius + 1.0);
-  vec2 at = (centre - window.xy) * scale + (quads ? offset : vec2(0.0));
-  gl_Position = vec4(2.0 * at / pixels - 1.0, 0.0, 1.0);
-  gl_PointSize = 2.0 * radius + 2.0;
-}`;
-const grainFragment = `#version 300 es
-precision highp float;
-uniform sampler2D colours; uniform float end; uniform bool quads;
-in vec2 offset; in float radius, swift; out vec4 colour;
-void main() {
-  vec2 from = quads ? offset : (gl_PointCoord - 0.5) * (2.0 * radius + 2.0);
-  float r = length(from), cover = clamp(radius - r + 0.5, 0.0, 1.0);
-  if (cover == 0.0) discard;
-  float edge = radius > 3.0 ? 0.72 + 0.28 * clamp(radius - r, 0.0, 1.0) : 1.0;
-  colour = vec4(texture(colours, vec2((255.0 * clamp(swift / end, 0.0, 1.0) + 0.5) / 256.0, 0.5)).rgb * edge, cover);
-}`;
+
+/// For n pixels from s0 in steps of h: the cell whose centre lies before each, and how far it is on the way to the next;
+/// -1 outside the grid.
+function places(faces, s0, h, n) {
+  const cells = new Int32Array(n), shares = new Float32Array(n), last = faces.length - 2;
+  const centre = (c) => 0.5 * (faces[c] + faces[c + 1]);
+  for (let k = 0, c = 0; k < n; ++k) {
+    const s = s0 + (k + 0.5) * h;
+    if (s < faces[0] || s > faces[last + 1]) { cells[k] = -1; continue; }
+    while (c < last - 1 && s > centre(c + 1)) ++c;
+    cells[k] = Math.min(c, Math.max(0, last - 1));
+    shares[k] = last < 1 ? 0 : Math.min(1, Math.max(0, (s - centre(c)) / (centre(c + 1) - centre(c))));
+  }
+  return { cells, shares };
+}
+
+/// a where share is 0, b where it is 1, channel by channel.
+function mixed(a, b, share) {
+  const k = Math.round(share * 256), l = 256 - k;
+  const redBlue = (((a & 0xff00ff) * l + (b & 0xff00ff) * k) >>> 8) & 0xff00ff;
+  const green = (((a & 0xff00) * l + (b & 0xff00) * k) >>> 8) & 0xff00;
+  return (0xff000000 | redBlue | green) >>> 0;
+}
 
 export class Painter {
-  /// Throws when the browser has no WebGL2.
   constructor(canvas) {
     this.canvas = canvas;
-    const gl = (this.gl = canvas.getContext('webgl2', { antialias: false, preserveDrawingBuffer: true }));
-    if (!gl) throw new Error('this browser draws no WebGL2');
-    this.field = this.#program(fieldVertex, fieldFragment);
-    this.grains = this.#program(grainVertex, grainFragment);
-    this.textures = Object.fromEntries(['field', 'columns', 'rows', 'colours', 'sand'].map((name) => [name, this.#texture()]));
-    for (const name of ['field', 'colours', 'sand'])
-      this.#bind(name, () => { for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.LINEAR); });
-    this.#bind('sand', () => gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, palette('sand')));
-    this.buffers = { place: gl.createBuffer(), size: gl.createBuffer(), speed: gl.createBuffer() };
-    this.empty = gl.createVertexArray();
-    this.arrays = gl.createVertexArray();
-    this.count = 0;
-  }
-
-  #program(vertex, fragment) {
-    const { gl } = this, program = gl.createProgram();
-    for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
-      const shader = gl.createShader(type);
-      gl.shaderSource(shader, text);
-      gl.compileShader(shader);
-      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost()) throw new Error(gl.getShaderInfoLog(shader));
-      gl.attachShader(program, shader);
-    }
-    gl.linkProgram(program);
-    return { program, at: (name) => gl.getUniformLocation(program, name) };
-  }
-
-  #texture() {
-    const { gl } = this, texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    for (const wrap of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, wrap, gl.CLAMP_TO_EDGE);
-    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
-    return texture;
-  }
-
-  #bind(name, then) {
-    this.gl.bindTexture(this.gl.TEXTURE_2D, this.textures[name]);
-    then();
-  }
-
-  /// Texture coordinate of each place along a direction: 0.5 / n at the first centre, piecewise linear between centres.
-  #table(name, faces) {
-    const { gl } = this, n = faces.length - 1, length = faces[n] - faces[0];
-    const table = new Float32Array(lookups);
-    for (let k = 0, cell = 0; k < lookups; ++k) {
-      const s = faces[0] + (k / (lookups - 1)) * length;
-      const centre = (c) => 0.5 * (faces[c] + faces[c + 1]);
-      while (cell < n - 2 && s > centre(cell + 1)) ++cell;
-      table[k] = n < 2 ? 0.5 : (cell + 0.5 + (s - centre(cell)) / (centre(cell + 1) - centre(cell))) / n;
-    }
-    this.#bind(name, () => gl.texImage2D(gl.TEXTURE_2D, 0, gl.R32F, lookups, 1, 0, gl.RED, gl.FLOAT, table));
+    this.pen = canvas.getContext('2d', { alpha: false });
   }
 
   /// The frame (field.js) with the values to colour its cells by, between `from` and `to`.
   load(frame, values, from, to, map) {
-    const { gl } = this;
-    this.box = [frame.x[0], frame.y[0], frame.x[frame.nx], frame.y[frame.ny]];
     const scale = 255 / (to - from);
-    const bytes = Uint8ClampedArray.from(values, (v) => (v - from) * scale);
-    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-    this.#bind('field', () => gl.texImage2D(gl.TEXTURE_2D, 0, gl.R8, frame.nx, frame.ny, 0, gl.RED, gl.UNSIGNED_BYTE, new Uint8Array(bytes.buffer)));
-    this.#bind('colours', () => gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, palette(map)));
-    this.#table('columns', frame.x);
-    this.#table('rows', frame.y);
-    if (this.frame === frame) return;
+    this.levels = Float32Array.from(values, (v) => Math.min(255, Math.max(0, (v - from) * scale)));
+    this.colours = pixelsOf(map);
     this.frame = frame;
-    this.count = frame.grains;
-    if (!this.count) return;
-    const { grain_x: x, grain_y: y, grain_d: d, grain_speed: speed } = frame.pack;
-    const places = new Uint16Array(2 * this.count);
-    for (let n = 0; n < this.count; ++n) { places[2 * n] = x.raw[n]; places[2 * n + 1] = y.raw[n]; }
-    for (const [name, data] of [['place', places], ['size', d.raw], ['speed', speed.raw]]) {
-      gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[name]);
-      gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
-    }
-    this.grainScales = { span: [x.from, y.from, x.to, y.to], diameters: [d.from, d.to], speeds: [speed.from, speed.to] };
   }
 
-  /// Draws the window {x0, y0, x1, y1} [m]; grains are coloured up to the speed `grainEnd`; paper: colour outside, 0 to 1.
-  draw(window, { grains = true, grainEnd = 1, paper = [1, 1, 1] } = {}) {
+  /// Draws the window {x0, y0, x1, y1} [m]; grains are coloured up to the speed `grainEnd`; paper: [r, g, b] outside the box.
+  draw(window, { grains = true, grainEnd = 1, paper = [255, 255, 255] } = {}) {
     if (!this.frame) return;
-    const { gl, canvas, field } = this;
-    const view = [window.x0, window.y0, window.x1, window.y1];
-    gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.disable(gl.BLEND);
-    gl.useProgram(field.program);
-    gl.bindVertexArray(this.empty);
-    ['field', 'columns', 'rows', 'colours'].forEach((name, unit) => {
-      gl.activeTexture(gl.TEXTURE0 + unit);
-      gl.bindTexture(gl.TEXTURE_2D, this.textures[name]);
-      gl.uniform1i(field.at(name), unit);
-    });
-    gl.uniform4fv(field.at('window'), view);
-    gl.uniform4fv(field.at('box'), this.box);
-    gl.uniform3fv(field.at('paper'), paper);
-    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-    if (grains && this.count) this.#drawGrains(view, grainEnd);
-    gl.activeTexture(gl.TEXTURE0);
+    const { width, height } = this.canvas;
+    if (this.image?.width !== width || this.image?.height !== height) {
+      this.image = this.pen.createImageData(width, height);
+      this.pixels = new Uint32Array(this.image.data.buffer);
+    }
+    this.#drawField(window, width, height, (0xff000000 | (paper[2] << 16) | (paper[1] << 8) | paper[0]) >>> 0);
+    if (grains && this.frame.grains) this.#drawGrains(window, width, height, grainEnd);
+    this.pen.putImageData(this.image, 0, 0);
   }
 
-  #drawGrains(view, grainEnd) {
-    const { gl, canvas, grains } = this;
-    const { span, diameters, speeds } = this.grainScales;
-    const quads = (diameters[1] * canvas.width) / (view[2] - view[0]) > 58;
-    gl.enable(gl.BLEND);
-    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    gl.useProgram(grains.program);
-    gl.bindVertexArray(this.arrays);
-    for (const [name, buffer, parts, type] of [['grain', 'place', 2, gl.UNSIGNED_SHORT], ['size', 'size', 1, gl.UNSIGNED_BYTE], ['speed', 'speed', 1, gl.UNSIGNED_SHORT]]) {
-      const at = gl.getAttribLocation(grains.program, name);
-      gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[buffer]);
-      gl.enableVertexAttribArray(at);
-      gl.vertexAttribPointer(at, parts, type, true, 0, 0);
-      gl.vertexAttribDivisor(at, quads ? 1 : 0);
+  #drawField(window, width, height, paper) {
+    const { levels, colours: map, pixels } = this, { x, y, nx, ny } = this.frame;
+    const columns = places(x, window.x0, (window.x1 - window.x0) / width, width), rows = places(y, window.y0, (window.y1 - window.y0) / height, height);
+    const east = nx > 1 ? 1 : 0, north = ny > 1 ? nx : 0;
+    for (let k = 0; k < height; ++k) {
+      const j = rows.cells[height - 1 - k], t = rows.shares[height - 1 - k];
+      for (let n = 0, at = k * width; n < width; ++n, ++at) {
+        const i = columns.cells[n];
+        if (i < 0 || j < 0) { pixels[at] = paper; continue; }
+        const s = columns.shares[n], cell = j * nx + i;
+        const below = levels[cell] + s * (levels[cell + east] - levels[cell]);
+        const above = levels[cell + north] + s * (levels[cell + north + east] - levels[cell + north]);
+        pixels[at] = map[(below + t * (above - below) + 0.5) | 0];
+      }
     }
-    gl.activeTexture(gl.TEXTURE0);
-    gl.bindTexture(gl.TEXTURE_2D, this.textures.sand);
-    gl.uniform1i(grains.at('colours'), 0);
-    gl.uniform4fv(grains.at('window'), view);
-    gl.uniform4fv(grains.at('span'), span);
-    gl.uniform2fv(grains.at('diameters'), diameters);
-    gl.uniform2f(grains.at('pixels'), canvas.width, canvas.height);
-    gl.uniform1f(grains.at('slow'), speeds[0]);
-    gl.uniform1f(grains.at('fastest'), speeds[1]);
-    gl.uniform1f(grains.at('end'), grainEnd);
-    gl.uniform1i(grains.at('quads'), quads ? 1 : 0);
-    if (quads) gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
-    else gl.drawArrays(gl.POINTS, 0, this.count);
+  }
+
+  /// Discs with soft edges and, where there is room, a darker rim; what is smaller than a pixel is one.
+  #drawGrains(window, width, height, grainEnd) {
+    const { pixels } = this, { grain_x: gx, grain_y: gy, grain_d: gd, grain_speed: gs } = this.frame.pack, sand = pixelsOf('sand');
+    const scale = width / (window.x1 - window.x0);
+    const stepX = ((gx.to - gx.from) / 65535) * scale, startX = (gx.from - window.x0) * scale;
+    const stepY = ((gy.to - gy.from) / 65535) * scale, startY = height - (gy.from - window.y0) * scale;
+    const stepR = (0.5 * (gd.to - gd.from) * scale) / 255, startR = 0.5 * gd.from * scale;
+    const stepC = (((gs.to - gs.from) / 65535) * 255) / grainEnd, startC = (gs.from * 255) / grainEnd;
+    for (let n = 0; n < gx.raw.length; ++n) {
+      const x = startX + stepX * gx.raw[n], y = startY - stepY * gy.raw[n], r = startR + stepR * gd.raw[n];
+      if (x + r < 0 || x - r > width || y + r < 0 || y - r > height) continue;
+      const colour = sand[Math.min(255, (startC + stepC * gs.raw[n]) | 0)];
+      if (r < 0.55) {
+        const i = x | 0, j = y | 0;
+        if (i < width && j < height && x >= 0 && y >= 0) pixels[j * width + i] = colour;
+        continue;
+      }
+      const rim = r > 3 ? mixed(colour, 0xff203040, 0.25) : colour;
+      const core = Math.max(0, r - 1.5) ** 2, edge = (r + 0.5) ** 2;
+      for (let j = Math.max(0, Math.floor(y - r - 0.5)); j <= Math.min(height - 1, Math.ceil(y + r)); ++j) {
+        const dy = j + 0.5 - y, half = Math.sqrt(Math.max(0, edge - dy * dy));
+        const to = Math.min(width - 1, Math.ceil(x + half));
+        for (let i = Math.max(0, Math.floor(x - half)); i <= to; ++i) {
+          const dx = i + 0.5 - x, square = dx * dx + dy * dy, at = j * width + i;
+          if (square <= core) pixels[at] = colour;
+          else if (square < edge) pixels[at] = mixed(pixels[at], rim, Math.min(1, r + 0.5 - Math.sqrt(square)));
+        }
+      }
+    }
   }
 }

@@ -8,7 +8,7 @@ import { save, standalone } from './figure.js';
 import { Painter } from './painter.js';
 
 let overlays = 0;  // each overlay clips by its own name
-const rim = { left: 40, right: 8, top: 8, bottom: 34 };
+const rim = { left: 40, right: 16, top: 8, bottom: 34 };
 
 /// Pipe, lines and axes over a window of w x h pixels, as SVG text; lengths in D from the pipe and the original bed.
 export function overlay(run, t, window, w, h, { lines = null } = {}) {
@@ -232,7 +232,7 @@ export class View {
 }
 
 function paperColour() {
-  return (getComputedStyle(document.body).backgroundColor.match(/[\d.]+/g) ?? [255, 255, 255]).slice(0, 3).map((c) => c / 255);
+  return (getComputedStyle(document.body).backgroundColor.match(/[\d.]+/g) ?? [255, 255, 255]).slice(0, 3).map(Number);
 }
 
 /// Small pictures of chosen moments, all on one scale, drawn once by the view's painter's twin.

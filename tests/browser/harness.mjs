@@ -63,7 +63,7 @@ export function ask(address, { method = 'GET', headers = {}, body = '' } = {}) {
 let browser;
 export async function open(address, { width = 1280, height = 900, scheme = 'light' } = {}) {
   browser ??= await chromium.launch({ executablePath: '/usr/bin/chromium',
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--disable-dev-shm-usage'] });
+    args: ['--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage'] });
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme });
   page.complaints = [];
   page.requests = [];
