@@ -1,7 +1,7 @@
 // Charts as SVG text: one drawing for the screen, for paper and for saving.  Colours are the page's CSS variables.
 
 let charts = 0;  // each chart clips by its own name
-const margin = { left: 58, right: 14, top: 10, bottom: 40 };
+const rim = { right: 14, top: 10, bottom: 40 };
 
 /// Round numbers within [from, to], about `wanted` of them: {step, places}.
 export function ticks(from, to, wanted) {
@@ -17,8 +17,9 @@ export function ticks(from, to, wanted) {
 
 export function tickText(place, step) {
   if (Math.abs(place) < 1e-9 * step) return '0';
-  if (Math.max(Math.abs(place), step) >= 1e5 || step < 1e-4) return place.toExponential(1).replace('.0', '').replace('e+', 'e');
-  return place.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+  const size = Math.max(Math.abs(place), step), decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  if (size < 1e5 && (decimals < 5 || (size >= 1e-3 && decimals < 8))) return place.toFixed(decimals);
+  return place.toExponential(Math.max(0, Math.floor(Math.log10(size)) - Math.floor(Math.log10(step) + 1e-9))).replace('e+', 'e');
 }
 
 export const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
@@ -35,6 +36,7 @@ function range(axis, values, usable) {
   let from = Infinity, to = -Infinity;
   for (const list of values) for (const v of list) if (usable(v)) { if (v < from) from = v; if (v > to) to = v; }
   if (!(to >= from)) [from, to] = axis.log ? [1e-1, 1] : [0, 1];
+  if (axis.log && to < 100 * from) [from, to] = [10 ** Math.floor(Math.log10(from)), 10 ** Math.ceil(Math.log10(1.001 * to))];
   if (axis.log) return [axis.from ?? from, axis.to ?? to];
   const slack = to > from ? 0.04 * (to - from) : 0.05 * Math.abs(to) || 0.5;
   return [axis.from ?? from - (axis.tight ? 0 : slack), axis.to ?? to + (axis.tight ? 0 : slack)];
@@ -67,12 +69,15 @@ export function chart(spec, width) {
   const inside = spec.curves.map((c) => Array.from(c.y).filter((_, n) => c.x[n] >= x0 && c.x[n] <= x1));
   const extra = [...(spec.bands ?? []).map((b) => [b.from, b.to]), ...(spec.image ? [[spec.image.y0, spec.image.y1]] : [])];
   const usable = (v) => Number.isFinite(v) && (!spec.y.log || v > 0);
-  let [y0, y1] = range(spec.y, [...inside, ...extra], usable);
-  const w = Math.max(60, width - margin.left - margin.right);
-  const h = spec.equal ? Math.round((w * (y1 - y0)) / (x1 - x0)) : (spec.height ?? 250) - margin.top - margin.bottom;
-  const height = h + margin.top + margin.bottom;
+  const [y0, y1] = range(spec.y, [...inside, ...extra], usable);
   const f = spec.y.log ? Math.log10 : (v) => v;
-  if (spec.y.log && !(f(y1) > f(y0))) [y0, y1] = [y0 / 3, y1 * 3];
+  const heightOf = (w) => (spec.equal ? Math.round((w * (y1 - y0)) / (x1 - x0)) : (spec.height ?? 250) - rim.top - rim.bottom);
+  const ty = spec.y.log
+    ? { places: Array.from({ length: Math.floor(f(y1) + 1e-9) - Math.ceil(f(y0) - 1e-9) + 1 }, (_, k) => 10 ** (Math.ceil(f(y0) - 1e-9) + k)) }
+    : ticks(y0, y1, heightOf(width - 70) / 40);
+  const names = ty.places.map((t) => (spec.y.log ? t.toExponential(0).replace('e+', 'e') : tickText(t, ty.step)));
+  const margin = { ...rim, left: 32 + 6.6 * Math.max(2, ...names.map((name) => name.length)) };
+  const w = Math.max(60, width - margin.left - margin.right), h = heightOf(w), height = h + margin.top + margin.bottom;
   const px = (x) => margin.left + ((x - x0) / (x1 - x0)) * w;
   const py = (y) => margin.top + h - ((f(y) - f(y0)) / (f(y1) - f(y0))) * h;
   const at = (x, y) => `${x.toFixed(1)} ${y.toFixed(1)}`;
@@ -83,14 +88,11 @@ export function chart(spec, width) {
       + ` height="${py(spec.image.y0) - py(spec.image.y1)}" preserveAspectRatio="none"/>`);
   for (const band of spec.bands ?? [])
     parts.push(`<rect x="${margin.left}" y="${py(band.to)}" width="${w}" height="${Math.max(0, py(band.from) - py(band.to))}" style="fill:var(--c${band.colour ?? 3});opacity:.14"/>`);
-  const tx = ticks(x0, x1, w / 75), ty = spec.y.log
-    ? { places: Array.from({ length: Math.floor(f(y1) + 1e-9) - Math.ceil(f(y0) - 1e-9) + 1 }, (_, k) => 10 ** (Math.ceil(f(y0) - 1e-9) + k)) }
-    : ticks(y0, y1, h / 40);
+  const tx = ticks(x0, x1, w / 75);
   const rule = spec.image ? 'stroke:none' : 'stroke:var(--rule)';
   for (const t of tx.places)
     parts.push(`<path d="M${at(px(t), margin.top)}V${margin.top + h}" style="${rule}"/><text x="${px(t).toFixed(1)}" y="${margin.top + h + 16}" text-anchor="middle">${tickText(t, tx.step)}</text>`);
-  for (const t of ty.places)
-    parts.push(`<path d="M${at(margin.left, py(t))}h${w}" style="${rule}"/><text x="${margin.left - 6}" y="${(py(t) + 4).toFixed(1)}" text-anchor="end">${spec.y.log ? t.toExponential(0).replace('e+', 'e') : tickText(t, ty.step)}</text>`);
+  ty.places.forEach((t, n) => parts.push(`<path d="M${at(margin.left, py(t))}h${w}" style="${rule}"/><text x="${(margin.left - 6).toFixed(1)}" y="${(py(t) + 4).toFixed(1)}" text-anchor="end">${names[n]}</text>`));
   if (spec.y.from === undefined && !spec.y.log && y0 < 0 && y1 > 0 && !spec.image)
     parts.push(`<path d="M${at(margin.left, py(0))}h${w}" style="stroke:var(--dim)"/>`);
   const clip = `clip${++charts}`;

@@ -51,11 +51,12 @@ export function scaleOf(values, quantity) {
   return [-end, end];
 }
 
-/// Stream function at cell centres in x and faces in y (ny + 1 rows): psi = integral of u dy from the floor [m2/s].
-export function streamFunction({ u, nx, ny, y }) {
+/// Stream function at cell centres in x and faces in y (ny + 1 rows): psi = integral of u dy from the floor [m2/s], in cells
+/// that the pipe cuts through their open part.
+export function streamFunction({ u, open, nx, ny, y }) {
   const psi = new Float32Array(nx * (ny + 1));
   for (let j = 0; j < ny; ++j)
-    for (let i = 0; i < nx; ++i) psi[(j + 1) * nx + i] = psi[j * nx + i] + u[j * nx + i] * (y[j + 1] - y[j]);
+    for (let i = 0; i < nx; ++i) psi[(j + 1) * nx + i] = psi[j * nx + i] + u[j * nx + i] * (open ? open[j * nx + i] : 1) * (y[j + 1] - y[j]);
   return psi;
 }
 

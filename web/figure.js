@@ -33,6 +33,8 @@ function legend(spec) {
     + (spec.bands ?? []).map((b) => item('band', b.colour ?? 3, b.name)).join('');
 }
 
+export const saveButtons = '<span class="save"><button type="button" title="save this figure as SVG">SVG</button><button type="button" title="save its numbers as CSV">CSV</button></span>';
+
 export class Figure {
   #zoom = null;
 
@@ -42,8 +44,7 @@ export class Figure {
     this.build = build;
     this.element = document.createElement('figure');
     if (wide) this.element.className = 'wide';
-    this.element.innerHTML = `<figcaption><h3>${escaped(title)}</h3><span class="save"><button type="button" title="save this figure as SVG">SVG</button>`
-      + '<button type="button" title="save its numbers as CSV">CSV</button></span></figcaption>'
+    this.element.innerHTML = `<figcaption><h3>${escaped(title)}</h3>${saveButtons}</figcaption>`
       + '<div class="plot"></div><div class="legend"></div><p class="note"></p>';
     const [svg, csv] = this.element.querySelectorAll('button');
     svg.onclick = () => save(`${fileName(title)}.svg`, standalone(this.drawn.svg), 'image/svg+xml');
@@ -52,10 +53,10 @@ export class Figure {
     this.#listen();
   }
 
+  /// Takes the data as they are now; draw() shows them.
   refresh() {
     this.spec = this.build();
     this.element.hidden = !this.spec;
-    if (this.spec) this.draw();
   }
 
   draw() {

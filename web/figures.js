@@ -23,14 +23,14 @@ export function depthFigures(run) {
   };
   const inTime = () => {
     const { time_s: t, S_over_D: S, depth_under_pipe_over_D: under } = run.series;
-    if (!run.head.pipe || !t?.length) return null;
+    if (!run.head.pipe || !run.bed.lines.length || !t?.length) return null;
     return { x: { name: 't [s]', from: 0 }, y: { name: 'S/D' }, marks: stages(1),
       curves: [{ name: 'this run', x: t, y: S, colour: 0 }, { name: "under the pipe's centre", x: t, y: under, colour: 1 }, ...fitted(t, 1)],
       note: 'S: largest depth of the bed within one D of the pipe. The fit is S_eq (1 − exp(−t/T)); intervals hold 95 % and count how long the residuals remember.' };
   };
   const inScale = () => {
     const { time_s: t, S_over_D: S } = run.series, { T_s: T, measured } = run.head;
-    if (!run.head.pipe || !T || !t?.length) return null;
+    if (!run.head.pipe || !T || !run.bed.lines.length || !t?.length) return null;
     const curves = [{ name: 'this run', x: divided(t, T), y: S, colour: 0 }];
     if (measured) curves.push({ name: measured.name, x: measured.t_s.map((s) => s / measured.T_s), y: measured.S_over_D, colour: 3, dots: true });
     const near = (run.analysis.comparisons ?? [])[0];
@@ -72,7 +72,7 @@ export function bedFigures(run) {
     if (lines.length < 3) return null;
     const unit = pipe?.D_m ?? 1, x0 = pipe?.x_m ?? 0, nx = x.length, values = new Float32Array(nx * lines.length);
     lines.forEach((line, n) => line.forEach((y, i) => { values[n * nx + i] = (y - level) / unit; }));
-    const end = Math.max(0.05, Math.min(2, values.reduce((most, v) => Math.max(most, Math.abs(v)), 0)));
+    const end = Math.min(2, values.reduce((most, v) => Math.max(most, Math.abs(v)), 1e-6));
     const half = (x[1] - x[0]) / 2, name = pipe ? 'y/D' : 'y [m]';
     return { x: { name: pipe ? 'x/D' : 'x [m]' }, y: { name: 't [s]', tight: true }, curves: [],
       image: { url: heatUrl(values, nx, lines.length, -end, end, 'balance'), x0: (x[0] - half - x0) / unit, x1: (x.at(-1) + half - x0) / unit, y0: time[0], y1: time.at(-1) },
@@ -88,7 +88,8 @@ function inTime(run, title, y, columns) {
   return new Figure(title, () => {
     const { time_s: t } = run.series;
     const curves = columns.filter(([column]) => run.series[column]).map(([column, name, colour]) => ({ name, x: t, y: run.series[column], colour }));
-    return t?.length && curves.length ? { x: { name: 't [s]', from: 0 }, y, curves, height: 210 } : null;
+    const moved = curves.some((curve) => curve.y.some((v) => v !== 0));  // a run without grains has nothing to tell of them
+    return t?.length && moved ? { x: { name: 't [s]', from: 0 }, y, curves, height: 210 } : null;
   });
 }
 
@@ -132,7 +133,7 @@ export function bedLoadFigures(run) {
     inTime(run, 'Grain flux', { name: 'q [m²/s]' }, [['grain_flux_m2_s', '', 0]]),
     inTime(run, 'Shields parameter', { name: 'θ' }, [['theta_measured', 'measured', 0]]),
     inTime(run, 'Speed of the grains', { name: '[m/s]' }, [['grain_mean_speed_m_s', 'mean', 0], ['grain_max_speed_m_s', 'largest', 1]]),
-    ...(run.head.pipe ? [inTime(run, 'Hole and mound', { name: '[D]' }, [['hole_width_over_D', 'width of the hole', 0], ['mound_height_over_D', 'height of the mound', 1], ['mound_x_over_D', 'place of the mound', 2]])] : [])];
+    ...(run.head.pipe && run.head.T_s ? [inTime(run, 'Hole and mound', { name: '[D]' }, [['hole_width_over_D', 'width of the hole', 0], ['mound_height_over_D', 'height of the mound', 1], ['mound_x_over_D', 'place of the mound', 2]])] : [])];
 }
 
 export function budgetFigures(run) {

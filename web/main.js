@@ -28,6 +28,16 @@ function grid(list) {
   return element;
 }
 
+/// Draws all figures; a section that has nothing to show is not shown.
+function refreshFigures() {
+  for (const figure of figures) figure.refresh();
+  for (const element of main.querySelectorAll('section')) {
+    const inside = [...element.querySelectorAll('figure')];
+    if (inside.length) element.hidden = inside.every((figure) => figure.hidden);
+  }
+  for (const figure of figures) figure.draw();  // now that it is known how many stand in a row
+}
+
 const card = (name, value, note = '') => `<div class="card"><b>${escaped(value)}</b><span>${escaped(name)}</span>${note ? `<small>${escaped(note)}</small>` : ''}</div>`;
 
 /// What one wants to know first.
@@ -35,7 +45,7 @@ function cards(run) {
   const { summary, pipe, T_s, theta } = run.head, { fit, S_eq_over_D: steady, stages } = run.analysis, last = (name) => run.series[name]?.at(-1);
   const formula = (run.analysis.formulas ?? []).find((f) => f.S_eq_over_D);
   let out = '';
-  if (pipe && run.rows) {
+  if (pipe && run.bed.lines.length) {
     out += card('S/D now', told(last('S_over_D'), 3), `under the pipe's centre ${told(last('depth_under_pipe_over_D'), 3)}`);
     out += card('S_eq/D', steady ? told(steady, 3) : 'not reached', [fit ? `fit ${told(fit.S_eq_over_D, 3)} ± ${told(fit.S_eq_half_width, 2)} (95 %)` : '', formula ? `formula ${told(formula.S_eq_over_D, 2)}${formula.scatter ? ` ± ${formula.scatter}` : ''}` : ''].filter(Boolean).join('; '));
     out += card('time scale of S(t)', fit ? `${told(fit.T_s, 3)} s` : 'not yet', [fit ? `± ${told(fit.T_half_width_s, 2)} s (95 %)` : '', T_s ? `formula ${told(T_s, 3)} s` : ''].filter(Boolean).join('; '));
@@ -100,7 +110,7 @@ async function runPage(run, live) {
     view, pictures,
     refresh() {
       showTexts();
-      for (const figure of figures) figure.refresh();
+      refreshFigures();
     },
   };
 }
@@ -113,9 +123,9 @@ async function report() {
   await page.view.update();
   const { T_s, frames, measured } = run.head, last = frames.at(-1)?.t_s;
   if (last === undefined) return;
-  // The stages of the paper's Fig. 11 in t/T, or six moments alike.
-  const wanted = measured ? [0, 11, 18, 25, 50, 120].map((t) => (t / measured.T_s) * T_s).filter((t) => t < 1.05 * last) : [0, 0.05, 0.15, 0.3, 0.6, 1].map((s) => s * last);
-  await stagePictures(run, wanted, page.pictures);
+  // The stages of the paper's Fig. 11 in t/T, or five moments; and where the run is now.
+  const wanted = measured ? [0, 11, 18, 25, 50].map((t) => (t / measured.T_s) * T_s).filter((t) => t < last) : [0, 0.05, 0.15, 0.3, 0.6].map((s) => s * last);
+  await stagePictures(run, [...wanted, last], page.pictures);
 }
 
 async function watch() {
@@ -157,7 +167,7 @@ async function compare() {
   section('Scour depth', grid(depth));
   main.insertAdjacentHTML('beforeend', text);
   section('Bed, forces, transport', grid(others));
-  for (const figure of figures) figure.refresh();
+  refreshFigures();
 }
 
 let width = innerWidth;

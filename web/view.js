@@ -4,7 +4,7 @@
 import { escaped, tickText, ticks, told } from './chart.js';
 import { gradient } from './colour.js';
 import { opened, quantities, scaleOf, streamlines } from './field.js';
-import { save, standalone } from './figure.js';
+import { save, saveButtons, standalone } from './figure.js';
 import { Painter } from './painter.js';
 
 let overlays = 0;  // each overlay clips by its own name
@@ -41,6 +41,17 @@ export function overlay(run, t, window, w, h, { lines = null } = {}) {
   return parts.join('');
 }
 
+/// What the cells of a frame hold.
+function cellsCsv({ x, y, nx, ny, u, v, p, solid }) {
+  const lines = ['x_m,y_m,u_m_s,v_m_s,p_Pa,solid'];
+  for (let j = 0; j < ny; ++j)
+    for (let i = 0; i < nx; ++i) {
+      const n = j * nx + i;
+      lines.push([0.5 * (x[i] + x[i + 1]), 0.5 * (y[j] + y[j + 1]), u[n], v[n], p?.[n] ?? NaN, solid?.[n] ?? NaN].map((s) => (Number.isFinite(s) ? told(s, 6) : '')).join(','));
+    }
+  return `${lines.join('\n')}\n`;
+}
+
 const svgOpen = (w, h) => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${w} ${h}" width="${w}" height="${h}" font-family="system-ui, sans-serif" font-size="12" style="fill:var(--ink)">`;
 
 export class View {
@@ -73,7 +84,7 @@ export class View {
     find('out').onclick = () => this.zoom(1 / 0.6);
     find('all').onclick = () => { this.window = null; this.queue(); };
     find('svg').onclick = () => save('moment.svg', this.svg(), 'image/svg+xml');
-    find('csv').onclick = () => save('moment.csv', this.csv(), 'text/csv');
+    find('csv').onclick = () => save('moment.csv', cellsCsv(this.frame), 'text/csv');
     find('play').onclick = () => this.play();
     this.slider.oninput = () => { this.stop(); this.following = Number(this.slider.value) === this.run.head.frames.length - 1; this.show(Number(this.slider.value)); };
     addEventListener('redraw', () => this.queue());
@@ -177,17 +188,6 @@ export class View {
     return standalone(`${svgOpen(this.w + rim.left + rim.right, this.h + rim.top + rim.bottom)}${image}${this.overlay}</svg>`);
   }
 
-  csv() {
-    const { x, y, nx, ny, u, v, p, solid } = this.frame;
-    const lines = ['x_m,y_m,u_m_s,v_m_s,p_Pa,solid'];
-    for (let j = 0; j < ny; ++j)
-      for (let i = 0; i < nx; ++i) {
-        const n = j * nx + i;
-        lines.push([0.5 * (x[i] + x[i + 1]), 0.5 * (y[j] + y[j + 1]), u[n], v[n], p?.[n] ?? NaN, solid?.[n] ?? NaN].map((s) => (Number.isFinite(s) ? told(s, 6) : '')).join(','));
-      }
-    return `${lines.join('\n')}\n`;
-  }
-
   play() {
     if (this.playing) return this.stop();
     const button = this.element.querySelector('[name=play]');
@@ -235,7 +235,7 @@ function paperColour() {
   return (getComputedStyle(document.body).backgroundColor.match(/[\d.]+/g) ?? [255, 255, 255]).slice(0, 3).map(Number);
 }
 
-/// Small pictures of chosen moments, all on one scale, drawn once by the view's painter's twin.
+/// Small pictures of chosen moments, all on one scale, the last with streamlines.
 export async function stagePictures(run, times, holder) {
   const { pipe } = run.head;
   const ks = [...new Set(times.map((t) => run.nearestFrame(t)))];
@@ -252,9 +252,13 @@ export async function stagePictures(run, times, holder) {
     painter.load(frame, quantities.speed.of(frame), 0, end, 'viridis');
     painter.draw(box, { grainEnd });
     const t = run.head.frames[ks[n]].t_s;
+    const lines = n === frames.length - 1 ? streamlines(frame, pipe) : null;
+    const svg = `${svgOpen(w + rim.left + rim.right, h + rim.top + rim.bottom)}<image href="${painter.canvas.toDataURL('image/jpeg', 0.85)}" x="${rim.left}" y="${rim.top}" width="${w}" height="${h}"/>${overlay(run, t, box, w, h, { lines })}</svg>`;
     const figure = document.createElement('figure');
-    figure.innerHTML = `<figcaption><h3>t = ${told(t, 3)} s${run.head.T_s ? `, t/T = ${(t / run.head.T_s).toFixed(2)}` : ''}</h3></figcaption>`
-      + `${svgOpen(w + rim.left + rim.right, h + rim.top + rim.bottom)}<image href="${painter.canvas.toDataURL('image/jpeg', 0.85)}" x="${rim.left}" y="${rim.top}" width="${w}" height="${h}"/>${overlay(run, t, box, w, h)}</svg>`;
+    figure.innerHTML = `<figcaption><h3>t = ${told(t, 3)} s${run.head.T_s ? `, t/T = ${(t / run.head.T_s).toFixed(2)}` : ''}${lines ? ', with streamlines' : ''}</h3>${saveButtons}</figcaption>${svg}`;
+    const [asSvg, asCsv] = figure.querySelectorAll('button');
+    asSvg.onclick = () => save(`moment-${told(t, 3)}-s.svg`, standalone(svg), 'image/svg+xml');
+    asCsv.onclick = () => save(`moment-${told(t, 3)}-s.csv`, cellsCsv(frame), 'text/csv');
     holder.append(figure);
   }
 }
