@@ -85,10 +85,9 @@ template <class Form>
 
 /// The nearest of a row of fixed grains `spacing` apart, the first of them at `start`: its distance in x.
 inline Lanes to_nearest(const Lanes& x, double start, double spacing) {
-  double each[width];
-  store(each, x);
-  for (double& one : each) one = start + spacing * std::nearbyint((one - start) / spacing) - one;
-  return load(each);
+  constexpr double whole = 6755399441055744.0;  // 1.5 * 2^52: a sum with it has no digits behind the point
+  const Lanes number = ((x - start) / spacing + whole) - whole;
+  return start + spacing * number - x;
 }
 
 /// Rolling springs of a slice with a wall; null without rolling resistance.

@@ -81,8 +81,9 @@ void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch&
   }
 }
 
-/// The final order of one window of ranks: sleepers last, then by the number of pairs close by, then of all pairs.
-/// Slices then hold grains with equally long lists, few lanes idle, and whole slices sleep.
+/// The final order of one window of ranks: sleepers last, before them those found calm, then by the number of pairs
+/// close by, then of all pairs.  Slices then hold grains with equally long lists, few lanes idle, and one restless
+/// grain does not keep seven calm ones from falling asleep.
 void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
   std::int32_t by_all[window], by_close[window];
   const auto counting_sort = [&](const std::int32_t* from, const base::Lease<std::int32_t>& key, std::int32_t* to) {
@@ -95,8 +96,12 @@ void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
   std::iota(ranks, ranks + (end - begin), begin);
   counting_sort(ranks, w.found_all, by_all);
   counting_sort(by_all, w.found_close, by_close);
-  const auto awake = [&](std::int32_t rank) { return sleep.asleep[w.old_of_rank[rank]] == 0; };
-  if (!sleep.asleep.empty()) std::stable_partition(by_close, by_close + (end - begin), awake);
+  if (!sleep.asleep.empty()) {
+    const auto awake = [&](std::int32_t rank) { return sleep.asleep[w.old_of_rank[rank]] == 0; };
+    const auto restless = [&](std::int32_t rank) { return sleep.calm[w.old_of_rank[rank]] == 0; };
+    std::int32_t* const sleepers = std::stable_partition(by_close, by_close + (end - begin), awake);
+    std::stable_partition(by_close, sleepers, restless);
+  }
   std::copy_n(by_close, end - begin, &w.rank_of_new[begin]);
   for (int place = begin; place < end; ++place) {
     const int rank = w.rank_of_new[place];

@@ -219,7 +219,11 @@ void spread_sleep(Bed& bed) {
   }
   for (int slice = 0; slice < slices; ++slice) {
     if (r.turn[slice] == 0) continue;
-    each_grain(s, slice, [&](int i) { s.sleep.asleep[i] = s.sleep.calm[i] = 0; });
+    // Woken by their company alone, they may sleep again as soon as that is calm.
+    each_grain(s, slice, [&](int i) {
+      if (s.sleep.asleep[i] != 0) s.sleep.calm[i] = looks_a_rest;
+      s.sleep.asleep[i] = 0;
+    });
   }
 }
 

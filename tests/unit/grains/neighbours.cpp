@@ -195,3 +195,26 @@ TEST(neighbours, heaped_up_and_lost_grains_are_faults_by_name) {
   for (int i = 0; i < 50; ++i) heap.x[i] = 0.02 + 1e-6 * i, heap.y[i] = 0.02;
   EXPECT_NE(refusal(heap).find("on top of each other"), std::string::npos) << refusal(heap);
 }
+
+TEST(neighbours, slices_hold_restless_or_calm_grains_or_sleepers) {
+  State s = strewn(500, 0.05, 0.05, 2e-3, 11);
+  std::vector<int> kind(s.count());  // of each id: 0 restless, 1 calm, 2 asleep
+  for (int i = 0; i < s.count(); ++i) {
+    kind[s.id[i]] = i * 7 % 3;
+    s.sleep.asleep.push_back(kind[s.id[i]] == 2 ? 1 : 0);
+    s.sleep.calm.push_back(kind[s.id[i]] == 1 ? 2 : 0);
+  }
+  Contacts c;
+  ListScratch scratch;
+  const Reach reach{0.05, 1, 0.4e-3, 0};
+  rebuild(s, c, scratch, reach, {});
+  constexpr int window = 64;  // grains that are sorted among each other
+  int mixed = 0;
+  for (int i = 1; i < s.count(); ++i) {
+    EXPECT_TRUE(i % window == 0 || kind[s.id[i - 1]] <= kind[s.id[i]]) << i;
+    if (i % lanes != 0 && kind[s.id[i - 1]] != kind[s.id[i]]) ++mixed;
+  }
+  EXPECT_GT(mixed, 0);
+  EXPECT_LE(mixed, 2 * (s.count() / window + 1));
+  EXPECT_EQ(listed(s, c), brute_force(s, reach));
+}
