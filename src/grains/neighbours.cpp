@@ -17,7 +17,10 @@ using base::square;
 
 namespace {
 
-constexpr int window = 64;  ///< grains that are sorted by the number of their contacts among each other
+/// Ranks of which the grains are sorted among each other: few, so that neighbours stay close in memory; more where
+/// grains may sleep, since one slice of a window may hold sleepers and others.
+constexpr int narrow_window = 64, wide_window = 256;
+int window_of(const State& s) { return s.sleep.asleep.empty() ? narrow_window : wide_window; }
 
 int column_of(const Cells& cells, double x) {
   return std::clamp(static_cast<int>(x / cells.width), 0, cells.columns - 1);
@@ -85,14 +88,14 @@ void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch&
 /// close by, then of all pairs.  Slices then hold grains with equally long lists, few lanes idle, and one restless
 /// grain does not keep seven calm ones from falling asleep.
 void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
-  std::int32_t by_all[window], by_close[window];
+  std::int32_t by_all[wide_window], by_close[wide_window];
   const auto counting_sort = [&](const std::int32_t* from, const base::Lease<std::int32_t>& key, std::int32_t* to) {
     int start[most_neighbours + 3] = {};
     for (int k = 0; k < end - begin; ++k) ++start[key[from[k]] + 1];
     std::partial_sum(start, start + most_neighbours + 3, start);
     for (int k = 0; k < end - begin; ++k) to[start[key[from[k]]]++] = from[k];
   };
-  std::int32_t ranks[window];
+  std::int32_t ranks[wide_window];
   std::iota(ranks, ranks + (end - begin), begin);
   counting_sort(ranks, w.found_all, by_all);
   counting_sort(by_all, w.found_close, by_close);
@@ -226,7 +229,7 @@ void count_rows(const State& s, Contacts& c, const ListScratch& w, bool rolling)
 }
 
 /// Rows of a slice: slot s of lane l is the s-th neighbour of that grain.
-void fill_rows(int slice, int n, Contacts& c, const ListScratch& w) {
+void fill_rows(int slice, int n, int window, Contacts& c, const ListScratch& w) {
   const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
   const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(c.first[slice + 1]) * lanes;
   std::fill(c.neighbour.begin() + begin, c.neighbour.begin() + end, nobody(n));
@@ -366,7 +369,8 @@ void list_walls(const State& s, Contacts& c, ListScratch& w, const Reach& reach,
 void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Circle& pipe,
              const std::vector<Segment>& walls) {
   check_places(s, reach.length);
-  const int n = s.count(), slices = (n + lanes - 1) / lanes, windows = (n + window - 1) / window;
+  const int n = s.count(), slices = (n + lanes - 1) / lanes;
+  const int window = window_of(s), windows = (n + window - 1) / window;
   if (n == 0) fail(Exit::invalid_case, "bed.count = 0: a bed needs at least one grain");
   const double largest = *std::max_element(s.diameter.begin(), s.diameter.end());
   const double list_reach = reach.gamma * largest + reach.skin;
@@ -387,7 +391,7 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   const auto find = kernels().find;
   base::for_each_item(0, windows, [&](int k) {
     const int begin = k * window, end = std::min(n, begin + window);
-    std::int32_t found[window * most_neighbours];
+    std::int32_t found[wide_window * most_neighbours];
     w.found[k].assign(found, found + find(cells, reach, begin, end, w, found));
     sort_window(begin, end, s.sleep, w);
   });
@@ -397,7 +401,7 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   count_rows(s, c, w, reach.rolling);
   c.near.resize(slices);
   base::for_each_item(0, slices, [&](int slice) {
-    fill_rows(slice, n, c, w);
+    fill_rows(slice, n, window, c, w);
     c.near[slice] = near_what(s, slice, reach, list_reach, pipe);
   });
   if (histories > 0) base::for_each_item(0, old_slices, [&](int slice) { carry_springs(slice, c, w); });

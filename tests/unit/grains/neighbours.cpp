@@ -208,7 +208,7 @@ TEST(neighbours, slices_hold_restless_or_calm_grains_or_sleepers) {
   ListScratch scratch;
   const Reach reach{0.05, 1, 0.4e-3, 0};
   rebuild(s, c, scratch, reach, {});
-  constexpr int window = 64;  // grains that are sorted among each other
+  constexpr int window = 256;  // grains that are sorted among each other
   int mixed = 0;
   for (int i = 1; i < s.count(); ++i) {
     EXPECT_TRUE(i % window == 0 || kind[s.id[i - 1]] <= kind[s.id[i]]) << i;
