@@ -256,6 +256,17 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
                 c.coupling.kernel, c.coupling.kernel * d, most_cells_in_kernel, std::min(mesh.cell_x, mesh.cell_y),
                 most_cells_in_kernel * std::min(mesh.cell_x, mesh.cell_y) / d);
 
+  keys({"coupling.turbulence", "coupling.dispersion", "flow.closure"})
+      .fault_if(
+          c.flow.closure == flow::Closure::laminar && (c.coupling.turbulence == coupling::Turbulence::damped ||
+                                                       c.coupling.dispersion == coupling::Dispersion::random_walk),
+          "coupling.turbulence and coupling.dispersion need the turbulence that flow.closure = \"laminar\" has "
+          "not: give \"untouched\" and \"none\"");
+  keys({"coupling.added_mass", "flow.algorithm"})
+      .fault_if(c.coupling.added_mass == coupling::AddedMass::relative && c.flow.algorithm == flow::Algorithm::simple,
+                "coupling.added_mass = \"relative\" needs the acceleration of the water, which flow.algorithm = "
+                "\"simple\" does not keep: give \"grain\"");
+
   // the pipe
   if (pipe.present) {
     keys({"pipe.x", "pipe.diameter", "mesh.length"})
@@ -310,6 +321,11 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
       .fault_if(current.profile == flow::Profile::smooth && current.roughness > 0,
                 "current.roughness = {} m contradicts current.profile = \"smooth\"", current.roughness);
 
+  keys({"current.profile", "pipe.present"})
+      .fault_if(
+          current.profile == flow::Profile::recycled && pipe.present,
+          "current.profile = \"recycled\" is for a channel without beginning or end, and this one has a pipe in it: "
+          "give pipe.present = false or another profile");
   keys({"current.theta", "current.mean_speed", "current.shear_velocity", "current.profile", "current.roughness",
         "mesh.height", "bed.thickness", "bed.count", "grains.diameter", "grains.density", "flow.density",
         "flow.viscosity"})

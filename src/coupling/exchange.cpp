@@ -4,6 +4,7 @@
 
 #include "base/loops.hpp"
 #include "base/math.hpp"
+#include "coupling/forces.hpp"
 
 namespace livebed::coupling {
 
@@ -13,13 +14,19 @@ using base::vector_loop;
 
 namespace {
 
-PaperDrag make_drag(const Params& params) { return PaperDrag{params.drag_infinity}; }
-
-Field slab_volume(const flow::Mesh& m, const flow::Staggering& at, double slab) {
-  Field v(m.nx, m.ny);
-  for (int j = 0; j <= m.ny; ++j)
-    for (int i = 0; i <= m.nx; ++i) v(i, j) = slab * at.volume(i, j);
-  return v;
+DragLaw make_drag(const Params& p) {
+  const SingleGrain single{p.drag_curve, p.drag_viscous, p.drag_infinity};
+  switch (p.drag) {
+    case Drag::di_felice:
+      return DiFeliceDrag{single};
+    case Drag::gidaspow:
+      return GidaspowDrag{single};
+    case Drag::rong:
+      return RongDrag{single};
+    case Drag::paper:
+      break;
+  }
+  return PaperDrag{single};
 }
 
 /// Sum of a field over the unknowns, row by row in order.
@@ -32,33 +39,61 @@ double total(const Field& f) {
   return sum;
 }
 
+/// values[first, last) <- their mean.
+void level(double* values, int first, int last) {
+  const double mean = base::vector_sum(first, last, [&](int i) { return values[i]; }) / (last - first);
+  std::fill(values + first, values + last, mean);
+}
+
+/// Row j of the volumes of `at` [m3], water alone, slab included.
+class Volumes {
+public:
+  Volumes(const flow::Staggering& at, int j, double slab)
+      : open_(at.open_volume.row(j)), width_(at.width.data() + 2), height_(slab * at.height[j + 2]) {}
+  double operator[](int i) const { return height_ * open_[i] * width_[i]; }
+
+private:
+  const double *open_, *width_;
+  double height_;
+};
+
 }  // namespace
 
-Coupler::Coupler(const Params& params, const flow::Mesh& mesh, const flow::Staggering& at_u,
-                 const flow::Staggering& at_v, double grain_diameter, double density, double viscosity)
+Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials& materials)
     : params_(params),
+      materials_(materials),
       drag_(make_drag(params)),
-      nx_(mesh.nx),
-      ny_(mesh.ny),
-      y_(mesh.y.begin() + 1, mesh.y.end()),
-      reach_(params.kernel * grain_diameter),
-      slab_(grain_diameter),
-      density_(density),
-      viscosity_(viscosity),
-      volume_u_(slab_volume(mesh, at_u, slab_)),
-      volume_v_(slab_volume(mesh, at_v, slab_)),
-      at_u_(at_u, mesh.aperture_x, 1, mesh.nx - 1, params.kernel * grain_diameter),
-      at_v_(at_v, mesh.aperture_y, 0, mesh.nx - 1, params.kernel * grain_diameter),
-      owed_u_(mesh.nx, mesh.ny),
-      owed_v_(mesh.nx, mesh.ny) {
-  const flow::Staggering at_c = flow::Staggering::centres(mesh);
-  volume_c_ = slab_volume(mesh, at_c, slab_);
-  at_c_ = Transfer(at_c, mesh.volume, 0, mesh.nx - 1, params.kernel * grain_diameter);
+      uniform_(flow.params().current.profile == flow::Profile::recycled),
+      nx_(flow.mesh().nx),
+      ny_(flow.mesh().ny),
+      y_(flow.mesh().y.begin() + 1, flow.mesh().y.end()),
+      reach_(params.kernel * materials.grain_diameter),
+      slab_(materials.grain_diameter),
+      density_(flow.params().density),
+      viscosity_(materials.viscosity),
+      owed_u_(nx_, ny_),
+      owed_v_(nx_, ny_),
+      before_(materials.grains) {
+  const flow::Mesh& m = flow.mesh();
+  const flow::Staggering centres = flow::Staggering::centres(m);
+  at_u_ = Transfer(flow::Staggering::west_faces(m), m.aperture_x, 1, nx_ - 1, reach_);
+  at_v_ = Transfer(flow::Staggering::south_faces(m), m.aperture_y, 0, nx_ - 1, reach_);
+  at_c_ = Transfer(centres, m.volume, 0, nx_ - 1, reach_);
+  if (params.dispersion == Dispersion::random_walk) eddies_ = Eddies(materials.grains, materials.seed);
+  for (grains::Array* a :
+       {&eddy_k_, &eddy_epsilon_, &eddy_u_, &eddy_v_, &slope_x_, &slope_y_, &rate_x_, &rate_y_, &vorticity_})
+    a->assign(materials.grains, 0.0);
+  voidage_.assign(materials.grains, 1.0);
+  volume_c_ = Field(nx_, ny_);
+  for (int j = 0; j < ny_; ++j)
+    for (int i = 0; i < nx_; ++i) volume_c_(i, j) = slab_ * centres.volume(i, j);
+  for (Field* f : {&voids_, &slope_u_, &slope_v_, &rate_u_, &rate_v_, &curl_}) *f = Field(nx_, ny_);
 }
 
 void Coupler::locate(const grains::State& g) {
   at_u_.locate(g);
   at_v_.locate(g);
+  at_c_.locate(g);
   located_ = true;
 }
 
@@ -69,93 +104,246 @@ int Coupler::rows_with_grains(const grains::State& g) const {
   return std::min(ny_, static_cast<int>(std::lower_bound(y_.begin(), y_.end(), top) - y_.begin()) + 2);
 }
 
-void Coupler::load_flow(grains::State& g, flow::State& s, double dt, bool held) {
+double Coupler::response_time(const grains::State& g, int k) const {
+  const double inertia = materials_.grain_density + materials_.added_mass * density_;
+  return inertia * base::sphere_volume(g.diameter[k]) / g.fluid.beta[k];
+}
+
+void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double interval) {
+  if (params_.voidage == Voidage::off && params_.drag == Drag::paper && params_.turbulence == Turbulence::untouched)
+    return;
+  add_up_solids(g, voids_);
+  for_each_item(0, ny_, [&](int j) {
+    double* e = voids_.row(j);
+    if (uniform_) level(e, 0, nx_);
+    vector_loop(0, nx_, [&](int i) { e[i] = std::max(voidage_least, 1.0 - e[i]); });
+  });
+  at_c_.gather(voids_, voidage_);
+  if (params_.voidage == Voidage::on && params_.mode == Mode::two_way)
+    flow.set_voidage(voids_, flow.state.voidage.nx() > 0 ? interval : 0.0,
+                     uniform_ ? 0.0 : reach_ + materials_.grain_diameter);
+}
+
+void Coupler::feel_eddies(const grains::State& g, const flow::Solver& flow, double dt) {
+  const flow::State& s = flow.state;
+  const auto sigma = [](double k) { return std::sqrt(2.0 / 3.0 * k); };
+  const double* per_hx = flow.at_c().per_hx.data() + 2;
+  for_each_item(0, top_, [&](int j) {
+    const double *k = s.k.row(j), *below = s.k.row(std::max(j - 1, 0)), per_hy = flow.at_c().per_hy[j + 2];
+    double *along_x = slope_u_.row(j), *along_y = slope_v_.row(j);
+    vector_loop(1, nx_, [&](int i) { along_x[i] = (sigma(k[i]) - sigma(k[i - 1])) * per_hx[i]; });
+    vector_loop(0, nx_, [&](int i) { along_y[i] = (sigma(k[i]) - sigma(below[i])) * per_hy; });
+  });
+  at_u_.gather(slope_u_, slope_x_);
+  at_v_.gather(slope_v_, slope_y_);
+  eddies_.advance(
+      g, dt,
+      [&](int k) {
+        const double time = params_.dispersion_time * eddy_k_[k] / eddy_epsilon_[k];
+        return Eddies::Eddy{sigma(eddy_k_[k]), slope_x_[k], slope_y_[k], time, response_time(g, k) / time};
+      },
+      [&](int k, double u, double v) { eddy_u_[k] = u, eddy_v_[k] = v; });
+}
+
+void Coupler::load_eddies(const grains::State& g, flow::Load& load) {
+  // 2 beta (1 - t) k a grain of volume-averaged k-epsilon, t the share of an eddy's motion that the grain follows.
+  at_c_.scatter(std::array{&load.damping}, [&](int k) {
+    const double followed =
+        share_followed(params_.turbulence_inertia, response_time(g, k), eddy_k_[k] / eddy_epsilon_[k]);
+    return std::array{2.0 * g.fluid.beta[k] * (1.0 - followed)};
+  });
+}
+
+void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool held) {
   if (params_.mode == Mode::none) return;
-  if (!located_) locate(g);
+  flow::State& s = flow.state;
+  flow::Load& load = s.load;
+  if (!located_) {
+    locate(g);
+    fill_voids(g, flow, dt);
+  }
   at_u_.gather(s.u, g.fluid.u);
   at_v_.gather(s.v, g.fluid.v);
   const double moving = held ? 0.0 : 1.0;
   std::visit(
       [&](const auto& drag) {
         vector_loop(0, g.count(), [&](int k) {
-          const double slip_x = g.fluid.u[k] - moving * g.u[k], slip_y = g.fluid.v[k] - moving * g.v[k];
-          g.fluid.beta[k] = drag(std::sqrt(slip_x * slip_x + slip_y * slip_y), g.diameter[k], density_, viscosity_);
+          const double slip_x = g.fluid.u[k] + eddy_u_[k] - moving * g.u[k],
+                       slip_y = g.fluid.v[k] + eddy_v_[k] - moving * g.v[k];
+          g.fluid.beta[k] =
+              drag({std::sqrt(slip_x * slip_x + slip_y * slip_y), g.diameter[k], density_, viscosity_, voidage_[k]});
         });
       },
       drag_);
+  // What is owed to rows that the grains have left is handed over in one more step.
+  const int before = load.top;
+  top_ = rows_with_grains(g);
+  load.top = std::max(top_, before - 1);
+  const bool damped = params_.turbulence == Turbulence::damped, walks = params_.dispersion == Dispersion::random_walk;
+  if (damped || walks) at_c_.gather(std::array<const Field*, 2>{&s.k, &s.epsilon}, {&eddy_k_, &eddy_epsilon_});
+  if (walks && !held) feel_eddies(g, flow, dt);
   if (params_.mode == Mode::one_way) return;
 
-  flow::Load& load = s.load;
-  load.top = rows_with_grains(g);
-  for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v}) f->fill(0.0);
-  const bool implicit = held || params_.exchange == Exchange::implicit;
-  if (implicit) {
+  for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v, &load.damping, &load.pores})
+    for (int j = 0; j < std::max(before, load.top); ++j) std::fill(f->row(j), f->row(j) + nx_ + 1, 0.0);
+  if (held || params_.exchange == Exchange::implicit) {
     at_u_.scatter(std::array{&load.beta_u, &load.force_u}, [&](int k) {
-      return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * g.u[k]};
+      return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * (g.u[k] - eddy_u_[k])};
     });
     at_v_.scatter(std::array{&load.beta_v, &load.force_v}, [&](int k) {
-      return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * g.v[k]};
+      return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * (g.v[k] - eddy_v_[k])};
     });
   }
-  const auto per_volume = [&](const Field& volume, const Field& owed, Field& beta, Field& force) {
+  const auto per_volume = [&](const flow::Staggering& at, const Field& owed, Field& beta, Field& force) {
     for_each_item(0, load.top, [&](int j) {
-      const double *v = volume.row(j), *o = owed.row(j);
+      const Volumes v(at, j, slab_);
+      const double* o = owed.row(j);
       double *b = beta.row(j), *f = force.row(j);
       vector_loop(0, nx_, [&](int i) {
         const double inverse = v[i] > 0 ? 1.0 / v[i] : 0.0;
         b[i] *= inverse;
         f[i] = (f[i] + o[i] / dt) * inverse;
       });
+      if (uniform_) level(b, at.i0, nx_), level(f, at.i0, nx_);
       b[nx_] = b[nx_ - 1], f[nx_] = f[nx_ - 1];  // the outlet face feels what its neighbour feels
     });
   };
-  per_volume(volume_u_, owed_u_, load.beta_u, load.force_u);
-  per_volume(volume_v_, owed_v_, load.beta_v, load.force_v);
+  per_volume(flow.at_u(), owed_u_, load.beta_u, load.force_u);
+  per_volume(flow.at_v(), owed_v_, load.beta_v, load.force_v);
+  if (!damped) return;
+  load_eddies(g, load);
+  for_each_item(0, load.top, [&](int j) {
+    const Volumes v(flow.at_c(), j, slab_ * density_);
+    double *rate = load.damping.row(j), *pores = load.pores.row(j);
+    if (uniform_) level(rate, 0, nx_);
+    const double *e = voids_.row(j), largest = params_.pore_scale * slab_ / 6.0;
+    // Hydraulic radius: volume of the pores over the surface of the spheres, d e / (6 (1 - e)).
+    vector_loop(0, nx_, [&](int i) {
+      rate[i] = v[i] > 0 ? rate[i] / v[i] : 0.0;
+      pores[i] = v[i] > 0 && e[i] < 1.0 ? largest * e[i] / (1.0 - e[i]) : 0.0;
+    });
+  });
 }
 
-void Coupler::push_grains(const flow::State& s, grains::State& g) {
+void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) {
+  const flow::State& s = flow.state;
+  const flow::Staggering& at_c = flow.at_c();
+  const double *per_hx = at_c.per_hx.data() + 2, per_dt = 1.0 / dt;
+  const bool voids = params_.voidage == Voidage::on, added = params_.added_mass == AddedMass::relative,
+             lift = params_.lift == Lift::saffman_mei;
+  for_each_item(0, top_, [&](int j) {
+    const double *p = s.p.row(j), *below = s.p.row(j - 1), per_hy = at_c.per_hy[j + 2];
+    if (voids) {
+      double *along_x = slope_u_.row(j), *along_y = slope_v_.row(j);
+      vector_loop(1, nx_, [&](int i) { along_x[i] = (p[i] - p[i - 1]) * per_hx[i]; });
+      vector_loop(0, nx_, [&](int i) { along_y[i] = (p[i] - below[i]) * per_hy; });
+    }
+    if (added) {
+      const double *u = s.u.row(j), *u_old = s.u_old.row(j), *cu = s.convection_u.row(j);
+      const double *v = s.v.row(j), *v_old = s.v_old.row(j), *cv = s.convection_v.row(j);
+      double *of_u = rate_u_.row(j), *of_v = rate_v_.row(j);
+      vector_loop(0, nx_, [&](int i) {
+        of_u[i] = (u[i] - u_old[i]) * per_dt - cu[i];
+        of_v[i] = (v[i] - v_old[i]) * per_dt - cv[i];
+      });
+    }
+    if (lift) {
+      const double *u_above = s.u.row(j + 1), *u_below = s.u.row(j - 1);
+      const double *v = s.v.row(j), *v_above = s.v.row(j + 1);
+      const double across_y = 0.5 / (1.0 / at_c.per_hy[j + 2] + 1.0 / at_c.per_hy[j + 3]);
+      double* curl = curl_.row(j);
+      vector_loop(0, nx_, [&](int i) {
+        const double dvdx =
+            0.5 * (v[i + 1] + v_above[i + 1] - v[i - 1] - v_above[i - 1]) / (1.0 / per_hx[i] + 1.0 / per_hx[i + 1]);
+        curl[i] = dvdx - across_y * (u_above[i] + u_above[i + 1] - u_below[i] - u_below[i + 1]);
+      });
+    }
+  });
+  if (voids) {
+    at_u_.gather(slope_u_, slope_x_);
+    at_v_.gather(slope_v_, slope_y_);
+  }
+  if (added) {
+    at_u_.gather(rate_u_, rate_x_);
+    at_v_.gather(rate_v_, rate_y_);
+  }
+  if (lift) at_c_.gather(curl_, vorticity_);
+
+  for (int k = 0; k < g.count(); ++k) {
+    const double volume = base::sphere_volume(g.diameter[k]);
+    Before& before = before_[g.id[k]];
+    before.velocity = {g.u[k], g.v[k]};
+    before.given = voids ? base::Vec2{-volume * slope_x_[k], -volume * slope_y_[k]} : base::Vec2{};
+    base::Vec2 force = before.given;
+    if (added) force = force + (materials_.added_mass * density_ * volume) * base::Vec2{rate_x_[k], rate_y_[k]};
+    if (lift) {
+      const base::Vec2 slip{g.fluid.u[k] - g.u[k], g.fluid.v[k] - g.v[k]};
+      const double scale =
+          saffman_mei_lift(base::norm(slip), std::abs(vorticity_[k]), g.diameter[k], density_, viscosity_);
+      force = force + (scale * vorticity_[k]) * base::Vec2{slip.y, -slip.x};
+    }
+    g.fluid.fx[k] = force.x, g.fluid.fy[k] = force.y;
+    g.fluid.u[k] += eddy_u_[k], g.fluid.v[k] += eddy_v_[k];
+  }
+}
+
+void Coupler::push_grains(const flow::Solver& flow, grains::State& g, double dt) {
   std::fill(g.impulse_x.begin(), g.impulse_x.end(), 0.0);
   std::fill(g.impulse_y.begin(), g.impulse_y.end(), 0.0);
   if (params_.mode == Mode::none) return;
-  at_u_.gather(s.u, g.fluid.u);
-  at_v_.gather(s.v, g.fluid.v);
+  at_u_.gather(flow.state.u, g.fluid.u);
+  at_v_.gather(flow.state.v, g.fluid.v);
+  feel_water(flow, g, dt);
 }
 
-void Coupler::collect(const grains::State& g, const flow::State& s, double dt) {
+void Coupler::collect(const grains::State& g, const flow::Solver& flow, double dt) {
   located_ = false;  // the grains have moved
   if (params_.mode != Mode::two_way) return;
-  locate(g);
-  const auto one = [&](Transfer& at, const grains::Array& impulse, const Field& volume, const Field& velocity,
-                       const Field& beta, const Field& force, Field& owed, double& to_grains, double& to_flow,
-                       double& carried) {
+  at_u_.locate(g);
+  at_v_.locate(g);
+  const double relative = params_.added_mass == AddedMass::relative ? materials_.added_mass * density_ : 0.0;
+  const auto one = [&](Transfer& to, const flow::Staggering& at, double base::Vec2::*along,
+                       const grains::Array& impulse, const grains::Array& speed, const Field& velocity,
+                       const Field& beta, const Field& force, Field& owed) {
     // owed <- owed - taken by the flow - given to the grains
     double taken = 0;
-    for (int j = 0; j < ny_; ++j) {
-      const double *v = volume.row(j), *u = velocity.row(j), *b = beta.row(j), *f = force.row(j);
+    for (int j = 0; j < flow.state.load.top; ++j) {
+      const Volumes v(at, j, slab_);
+      const double *u = velocity.row(j), *b = beta.row(j), *f = force.row(j);
       double* o = owed.row(j);
       taken += base::vector_sum(0, nx_, [&](int i) { return dt * (f[i] - b[i] * u[i]) * v[i]; });
       vector_loop(0, nx_, [&](int i) { o[i] -= dt * (f[i] - b[i] * u[i]) * v[i]; });
     }
-    at.scatter(std::array{&owed}, [&](int k) { return std::array{-impulse[k]}; });
-    to_flow += taken;
-    for (int k = 0; k < g.count(); ++k) to_grains += impulse[k];
-    carried = total(owed);
+    const auto received = [&](int k) {
+      const Before& before = before_[g.id[k]];
+      return impulse[k] - dt * (before.given.*along) -
+             relative * base::sphere_volume(g.diameter[k]) * (speed[k] - before.velocity.*along);
+    };
+    to.scatter(std::array{&owed}, [&](int k) { return std::array{-received(k)}; });
+    double given = 0;
+    for (int k = 0; k < g.count(); ++k) given += received(k);
+    ledger_.to_flow.*along += taken;
+    ledger_.to_grains.*along += given;
+    ledger_.carried.*along = total(owed);
   };
-  one(at_u_, g.impulse_x, volume_u_, s.u, s.load.beta_u, s.load.force_u, owed_u_, ledger_.to_grains.x,
-      ledger_.to_flow.x, ledger_.carried.x);
-  one(at_v_, g.impulse_y, volume_v_, s.v, s.load.beta_v, s.load.force_v, owed_v_, ledger_.to_grains.y,
-      ledger_.to_flow.y, ledger_.carried.y);
+  const flow::State& s = flow.state;
+  one(at_u_, flow.at_u(), &base::Vec2::x, g.impulse_x, g.u, s.u, s.load.beta_u, s.load.force_u, owed_u_);
+  one(at_v_, flow.at_v(), &base::Vec2::y, g.impulse_y, g.v, s.v, s.load.beta_v, s.load.force_v, owed_v_);
 }
 
-void Coupler::solid_fraction(const grains::State& g, Field& fraction) {
+void Coupler::add_up_solids(const grains::State& g, Field& fraction) const {
   fraction.fill(0.0);
-  at_c_.locate(g);
   at_c_.scatter(std::array{&fraction}, [&](int k) { return std::array{base::sphere_volume(g.diameter[k])}; });
   for_each_item(0, ny_, [&](int j) {
     const double* v = volume_c_.row(j);
     double* f = fraction.row(j);
     vector_loop(0, nx_, [&](int i) { f[i] = v[i] > 0 ? f[i] / v[i] : 0.0; });
   });
+}
+
+void Coupler::solid_fraction(const grains::State& g, Field& fraction) {
+  at_c_.locate(g);
+  add_up_solids(g, fraction);
 }
 
 }  // namespace livebed::coupling

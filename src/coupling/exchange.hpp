@@ -3,17 +3,22 @@
 
 #include "base/vec2.hpp"
 #include "coupling/drag.hpp"
+#include "coupling/eddies.hpp"
 #include "coupling/params.hpp"
 #include "coupling/transfer.hpp"
-#include "flow/mesh.hpp"
-#include "flow/state.hpp"
+#include "flow/advance.hpp"
 #include "grains/state.hpp"
 
 namespace livebed::coupling {
 
-using DragLaw = std::variant<PaperDrag>;
+using DragLaw = std::variant<PaperDrag, DiFeliceDrag, GidaspowDrag, RongDrag>;
 
-/// Sums of all impulses since the release [N s]; in the slab of thickness b.
+/// The void fraction of a cell is never taken smaller [-]: equal spheres in the densest plane packing leave 0.395, and
+/// below that the kernel has put a share of a grain where a sliver of water is.
+inline constexpr double voidage_least = 0.3;
+
+/// Sums of all impulses since the release [N s]; in the slab of thickness b.  The force of the pressure gradient is not
+/// among them: the water's own equation holds its counterpart.
 struct ImpulseLedger {
   base::Vec2 to_grains;  ///< what the water gave the grains
   base::Vec2 to_flow;    ///< what the flow has taken up
@@ -21,52 +26,89 @@ struct ImpulseLedger {
   base::Vec2 error() const { return to_grains + to_flow + carried; }
 };
 
-/// The drag between flow and grains, both ways.  A coupled step of dt is
-///   1  load_flow:    beta <- slip of each grain; load <- beta, beta u_p and what is still owed
+/// What the exchange must know of sand and water.
+struct Materials {
+  double grain_diameter = 0;  ///< mean, also the thickness of the slab [m]
+  double grain_density = 0;   ///< [kg/m3]
+  double added_mass = 0;      ///< C_M [-]
+  double viscosity = 0;       ///< nu of the water, as drag and lift see it [m2/s]
+  int grains = 0;             ///< number of them
+  std::uint64_t seed = 1;     ///< of the dispersion
+};
+
+/// The forces between flow and grains, both ways.  A coupled step of dt is
+///   1  load_flow:    void fraction <- grains; beta <- slip of each grain; load <- beta, beta u_p, what is still owed
 ///   2  the flow advances with beta implicit
-///   3  push_grains:  each grain sees the new velocity around it; the grains advance their sub-steps
+///   3  push_grains:  each grain sees the new water around it; the grains advance their sub-steps
 ///   4  collect:      what the grains truly took is set against what the flow gave; the difference is owed
 /// Forces per volume in a cell are sums of forces over dx dy b with b the grain diameter (spheres in a slab).
+///
+/// Where the inlet is recycled the water has no beginning and no end and is the same all along the box: what the grains
+/// do to it is averaged along x, as in the one-dimensional flows that bed-load experiments are compared with (Revil-
+/// Baudard and Chauchat 2013, J. Fluid Mech. 730, 368; Maurin et al. 2015, Phys. Fluids 27, 113302).
 class Coupler {
 public:
-  Coupler(const Params& params, const flow::Mesh& mesh, const flow::Staggering& at_u, const flow::Staggering& at_v,
-          double grain_diameter, double density, double viscosity);
+  Coupler(const Params& params, const flow::Solver& flow, const Materials& materials);
 
   /// Step 1.  held: the grains stand still whatever happens (spin-up of the flow on the fixed bed).
-  void load_flow(grains::State& g, flow::State& s, double dt, bool held);
-  /// Step 3.
-  void push_grains(const flow::State& s, grains::State& g);
+  void load_flow(grains::State& g, flow::Solver& flow, double dt, bool held);
+  /// Step 3.  dt: the step of the flow [s].
+  void push_grains(const flow::Solver& flow, grains::State& g, double dt);
   /// Step 4.
-  void collect(const grains::State& g, const flow::State& s, double dt);
+  void collect(const grains::State& g, const flow::Solver& flow, double dt);
 
   /// Solid volume fraction in cells [-] (spheres in the slab), smoothed by the kernel.
   void solid_fraction(const grains::State& g, base::Field& fraction);
 
   const ImpulseLedger& ledger() const { return ledger_; }
 
-  /// What a checkpoint must hold besides the states: visit(name, field) and the ledger.
-  template <class Visit>
-  void each_field(Visit&& visit) {
-    visit("owed_u", owed_u_), visit("owed_v", owed_v_);
+  /// What a checkpoint must hold besides the states: visit(name, field or array or number) and the ledger.
+  template <class Self, class Visit>
+  static void each_part(Self& self, Visit&& visit) {
+    visit("owed_u", self.owed_u_), visit("owed_v", self.owed_v_);
+    if (self.params_.dispersion == Dispersion::random_walk) Eddies::each_part(self.eddies_, visit);
   }
   void restore_ledger(const ImpulseLedger& ledger) { ledger_ = ledger; }
 
 private:
+  /// What the reaction on the water must know of a grain when the step is over.
+  struct Before {
+    base::Vec2 given;     ///< force whose counterpart is in the water's own equation [N]
+    base::Vec2 velocity;  ///< of the grain when the step began [m/s]
+  };
+
   void locate(const grains::State& g);
   /// Rows of the grid, from the floor, that the kernel of any grain touches.
   int rows_with_grains(const grains::State& g) const;
+  void fill_voids(const grains::State& g, flow::Solver& flow, double interval);
+  void add_up_solids(const grains::State& g, base::Field& fraction) const;
+  void feel_eddies(const grains::State& g, const flow::Solver& flow, double dt);
+  void load_eddies(const grains::State& g, flow::Load& load);
+  void feel_water(const flow::Solver& flow, grains::State& g, double dt);
+  double response_time(const grains::State& g, int k) const;
 
   Params params_;
+  Materials materials_;
   DragLaw drag_;
-  int nx_ = 0, ny_ = 0;
+  bool uniform_ = false;  ///< the water is the same all along the box
+  int nx_ = 0, ny_ = 0, top_ = 0;
   std::vector<double> y_;  ///< of the rows' upper edges [m]
   double reach_ = 0;       ///< half-width of the kernel [m]
   double slab_ = 0, density_ = 0, viscosity_ = 0;
-  base::Field volume_u_, volume_v_, volume_c_;  ///< of the control volumes [m3], slab included
   Transfer at_u_, at_v_, at_c_;
-  bool located_ = false;         ///< weights of u and v belong to the present places of the grains
+  bool located_ = false;         ///< the weights belong to the present places of the grains
   base::Field owed_u_, owed_v_;  ///< impulse owed to the flow [N s]
   ImpulseLedger ledger_;
+  Eddies eddies_;
+
+  // Of each grain, in the order of the storage while the flow steps:
+  grains::Array voidage_;                ///< around it [-]
+  grains::Array eddy_k_, eddy_epsilon_;  ///< of the water around it [m2/s2], [m2/s3]
+  grains::Array eddy_u_, eddy_v_;        ///< fluctuation it feels [m/s]
+  grains::Array slope_x_, slope_y_, rate_x_, rate_y_, vorticity_;
+  std::vector<Before> before_;  ///< by id
+  base::Field volume_c_;        ///< of the cells, water and grains, slab included [m3]
+  base::Field voids_, slope_u_, slope_v_, rate_u_, rate_v_, curl_;
 };
 
 }  // namespace livebed::coupling

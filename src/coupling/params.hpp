@@ -10,19 +10,46 @@ enum class Mode { none, one_way, two_way };
 /// carried to the next step; lagged: the whole impulse of the last step as a source (the paper, Sec. 4.1).
 enum class Exchange { implicit, lagged };
 
-/// paper: C_D = C_Dinf + 24/Re_p on the slip (Eq. 15-18).
-enum class Drag { paper };
+/// paper: one grain alone (Eq. 15-18); the others know the void fraction around the grain (drag.hpp).
+enum class Drag { paper, di_felice, gidaspow, rong };
 
-/// Does the void fraction enter the fluid equations?  off: no (the paper).
-enum class Voidage { off };
+/// How the drag coefficient of one grain goes from viscous to inertial: C_D = A/Re + B (sum, the paper) or
+/// (sqrt(A/Re) + sqrt(B))^2 (Dallavalle 1948).
+enum class DragCurve { sum, dallavalle };
+
+/// Does the void fraction enter the fluid equations?  off: no (the paper); on: volume-averaged continuity, momentum and
+/// closure, and the grains feel the pressure gradient.
+enum class Voidage { off, on };
+
+/// Added mass.  grain: the grain is heavier to accelerate (the paper); relative: the force follows the acceleration of
+/// the grain relative to the water around it, and the water takes the reaction.
+enum class AddedMass { grain, relative };
+
+/// saffman_mei: lift of a sheared grain, Saffman (1965) with the correction of Mei (1992).
+enum class Lift { none, saffman_mei };
+
+/// What the grains do to the turbulence.  damped: they take k from it as far as they do not follow its eddies.
+enum class Turbulence { untouched, damped };
+
+/// random_walk: each grain feels a fluctuation of the modelled k with the time scale of its eddies.
+enum class Dispersion { none, random_walk };
 
 struct Params {
   Mode mode = Mode::two_way;
   Exchange exchange = Exchange::implicit;
   Drag drag = Drag::paper;
+  DragCurve drag_curve = DragCurve::sum;
+  double drag_viscous = 24;    ///< A of the drag coefficient of one grain [-]
+  double drag_infinity = 0.4;  ///< B, C_D infinity [-] (Table 2)
   Voidage voidage = Voidage::off;
-  double drag_infinity = 0.4;  ///< C_D infinity [-] (Table 2)
-  double kernel = 2;           ///< half-width of the transfer kernel over the grain diameter [-]
+  AddedMass added_mass = AddedMass::grain;
+  Lift lift = Lift::none;
+  Turbulence turbulence = Turbulence::untouched;
+  double turbulence_inertia = 1;  ///< B of the share exp(-B St) of an eddy's motion that a grain follows [-]
+  double pore_scale = 1;          ///< largest mixing length between grains over kappa x hydraulic radius [-]
+  Dispersion dispersion = Dispersion::none;
+  double dispersion_time = 0.2;  ///< Lagrangian time scale over k/epsilon [-]
+  double kernel = 2;             ///< half-width of the transfer kernel over the grain diameter [-]
 };
 
 }  // namespace livebed::coupling

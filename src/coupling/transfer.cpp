@@ -10,8 +10,6 @@ namespace livebed::coupling {
 
 namespace {
 
-constexpr int grains_a_block = 256;
-
 /// Integral of 15/16 (1 - s^2)^2 from -1 to s.
 double kernel_integral(double s) {
   s = std::clamp(s, -1.0, 1.0);
@@ -124,22 +122,6 @@ void Transfer::locate_one(int n, double x, double y) {
   // check of the grains names it.
   const double scale = sum > 0 ? 1.0 / sum : std::numeric_limits<double>::quiet_NaN();
   for (int k = 0; k < f.nj; ++k) wy[k] *= scale;
-}
-
-void Transfer::gather(const base::Field& field, grains::Array& values) const {
-  const int n = static_cast<int>(footprint_.size());
-  base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int k) {
-    for (int m = k * grains_a_block; m < std::min(n, (k + 1) * grains_a_block); ++m) {
-      double sum = 0;
-      for_each_row(m, [&](int i0, int ni, int j, double wy, const double* wx, const double* open) {
-        const double* v = field.row(j) + i0;
-        double row = 0;
-        for (int a = 0; a < ni; ++a) row += wx[a] * open[a] * v[a];
-        sum += wy * row;
-      });
-      values[m] = sum;
-    }
-  });
 }
 
 }  // namespace livebed::coupling

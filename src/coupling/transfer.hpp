@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -25,8 +26,28 @@ public:
   /// be called when grains have moved or changed places, before gather and scatter.
   void locate(const grains::State& g);
 
-  /// values[n] = kernel mean of the field at grain n.
-  void gather(const base::Field& field, grains::Array& values) const;
+  /// values[m][n] = kernel mean of field m at grain n, for several fields at once.
+  template <std::size_t M>
+  void gather(const std::array<const base::Field*, M>& fields, const std::array<grains::Array*, M>& values) const {
+    const int n = static_cast<int>(footprint_.size());
+    base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int block) {
+      for (int k = block * grains_a_block; k < std::min(n, (block + 1) * grains_a_block); ++k) {
+        std::array<double, M> sum{};
+        for_each_row(k, [&](int i0, int ni, int j, double wy, const double* wx, const double* open) {
+          for (std::size_t m = 0; m < M; ++m) {
+            const double* v = fields[m]->row(j) + i0;
+            double row = 0;
+            for (int a = 0; a < ni; ++a) row += wx[a] * open[a] * v[a];
+            sum[m] += wy * row;
+          }
+        });
+        for (std::size_t m = 0; m < M; ++m) (*values[m])[k] = sum[m];
+      }
+    });
+  }
+  void gather(const base::Field& field, grains::Array& values) const {
+    gather(std::array{&field}, std::array{&values});
+  }
 
   /// field(i,j) += sum over grains of weight x values(n), for several fields at once: values(n) returns an array of M.
   /// The order of additions is fixed whatever the number of threads.
@@ -51,6 +72,8 @@ public:
   }
 
 private:
+  static constexpr int grains_a_block = 256;
+
   /// The volumes a grain's kernel touches.
   struct Footprint {
     int i0, ni, j0, nj;

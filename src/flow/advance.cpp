@@ -33,11 +33,12 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
   s.convection_u = s.convection_v = s.convection_k = s.convection_e = zero;
   s.k = s.k_old = Field(mesh.nx, mesh.ny, 2, k_floor);
   s.epsilon = s.epsilon_old = Field(mesh.nx, mesh.ny, 2, epsilon_floor);
-  s.load = {0, zero, zero, zero, zero};
+  s.load = {0, zero, zero, zero, zero, zero, zero};
   if (params.algorithm == Algorithm::simple) work_.own_rows(mesh.ny);
 }
 
-void Solver::set_voidage(const Field& voidage, double interval) {
+void Solver::set_voidage(const Field& voidage, double interval, double margin) {
+  state.voidage = voidage;
   const Mesh before = std::exchange(water_, fill_with_voids(mesh_, voidage));
   at_u_ = Staggering::west_faces(water_);
   at_v_ = Staggering::south_faces(water_);
@@ -49,7 +50,14 @@ void Solver::set_voidage(const Field& voidage, double interval) {
   if (interval <= 0) return;
   for (int j = 0; j < mesh_.ny; ++j)
     for (int i = 0; i < mesh_.nx; ++i)
-      work_.storage(i, j) = (water_.volume(i, j) - before.volume(i, j)) * mesh_.dx(i) * mesh_.dy(j) / interval;
+      if (mesh_.x[i] >= margin && mesh_.x[i + 1] <= mesh_.length() - margin)
+        work_.storage(i, j) = (water_.volume(i, j) - before.volume(i, j)) * mesh_.dx(i) * mesh_.dy(j) / interval;
+}
+
+void Solver::set_inlet(const Column& profiles) {
+  boundary_.inlet_u = profiles.u, boundary_.inlet_k = profiles.k, boundary_.inlet_epsilon = profiles.epsilon;
+  turbulence_.set_inlet(boundary_);
+  fill_velocity_ghosts(mesh_, boundary_, state.u, state.v);
 }
 
 void Solver::start() {

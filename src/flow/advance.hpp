@@ -33,8 +33,12 @@ public:
 
   /// The share of every cell that holds water [-], 0 < voidage <= 1 (1 at first), from now on; interval: time since the
   /// last one was given [s], over which the difference comes about in the step to come, 0 when it is to count as always
-  /// so.  Throws Fault (invalid case) for a value out of range.
-  void set_voidage(const base::Field& voidage, double interval);
+  /// so.  margin: this near to inlet and outlet [m] grains may come and go at once; there the difference moves no
+  /// water. Throws Fault (invalid case) for a value out of range.
+  void set_voidage(const base::Field& voidage, double interval, double margin = 0);
+
+  /// New profiles of velocity, k and epsilon at the inlet, one value a row, from the next step on.
+  void set_inlet(const Column& profiles);
 
   /// Largest step that keeps the Courant number at params.courant [s], never above params.max_step; SIMPLE takes
   /// max_step at any Courant number.
@@ -69,6 +73,7 @@ public:
   const Boundary& boundary() const { return boundary_; }
   const Staggering& at_u() const { return at_u_; }
   const Staggering& at_v() const { return at_v_; }
+  const Staggering& at_c() const { return at_c_; }
   State state;
 
 private:

@@ -18,8 +18,9 @@ enum class Algorithm { projection, simple };
 /// smooth log law); no_slip resolves the viscous stress; slip has none.
 enum class Wall { rough, smooth, no_slip, slip };
 
-/// Velocity profile at the inlet: rough and smooth log law, the 1D solution of the same closure, or one speed.
-enum class Profile { rough, smooth, developed, uniform };
+/// Velocity profile at the inlet: rough and smooth log law, the 1D solution of the same closure, one speed, or what
+/// flows in the box itself, as in a channel without beginning or end.
+enum class Profile { rough, smooth, developed, uniform, recycled };
 
 /// Tensor-product grid over [0, length] x [0, height]: cells of size cell_x, cell_y inside the fine window, growing
 /// outside it by the ratio growth from cell to cell (1 = uniform everywhere).

@@ -4,11 +4,14 @@
 
 namespace livebed::flow {
 
-/// What the grains do to the flow, per unit volume of a cell face's control volume: the force is f - beta u.
+/// What the grains do to the flow, per unit volume of the water in a cell face's control volume: the force is f - beta
+/// u.
 struct Load {
   int top = 0;                   ///< rows from it on hold no grains: there all is 0 and not read
   base::Field beta_u, beta_v;    ///< [kg m-3 s-1] on the faces of u and v
   base::Field force_u, force_v;  ///< [N m-3]
+  base::Field damping;           ///< rate at which the grains take k from the eddies [1/s], in cells
+  base::Field pores;             ///< hydraulic radius of the space between them [m], in cells; 0: no bound
 };
 
 /// Everything that changes with time.  k, epsilon and nut live half a step ahead of the velocity: each is then centred
@@ -25,6 +28,7 @@ struct State {
   base::Field k_old, epsilon_old;
   base::Field convection_u, convection_v;  ///< rates of change by convection in the last step [m/s2]
   base::Field convection_k, convection_e;  ///< of k and the second quantity of the closure [m2/s3], [its unit/s]
+  base::Field voidage;                     ///< share of the cells that holds water [-]; empty: all of it
   double step = 0;                         ///< last time step [s]
   double time = 0;                         ///< [s] since the spin-up began
   Load load;

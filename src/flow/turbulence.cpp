@@ -48,10 +48,7 @@ Turbulence::Turbulence(const Mesh& m, const Boundary& b, const Params& params) :
   if (with_omega()) omega_ = omega_old_ = cross_ = blend_ = f;
   open_x_ = SharedRows(m.aperture_x), open_y_ = SharedRows(m.aperture_y), volume_ = SharedRows(m.volume);
   distance_ = distance_from_walls(m, b);
-  inlet_k_ = b.inlet_k;
-  inlet_e_ = b.inlet_epsilon;
-  if (with_omega())
-    for (std::size_t j = 0; j < inlet_e_.size(); ++j) inlet_e_[j] /= launder_spalding.c_mu * inlet_k_[j];
+  set_inlet(b);
 
   // k-epsilon needs a wall function to touch a wall; k-omega reaches down to any.
   const auto touches = [&](Wall wall) { return with_omega() ? wall != Wall::slip : has_wall_function(wall); };
@@ -85,6 +82,13 @@ Turbulence::Turbulence(const Mesh& m, const Boundary& b, const Params& params) :
     for (const FixedCell& cell : fixed->cells) factor(cell.i, cell.j) = fixed_row;
     (fixed == &fixed_k_ ? factor_k_ : factor_e_) = SharedRows(factor);
   }
+}
+
+void Turbulence::set_inlet(const Boundary& b) {
+  inlet_k_ = b.inlet_k;
+  inlet_e_ = b.inlet_epsilon;
+  if (with_omega())
+    for (std::size_t j = 0; j < inlet_e_.size(); ++j) inlet_e_[j] /= launder_spalding.c_mu * inlet_k_[j];
 }
 
 double Turbulence::second_floor() const { return with_omega() ? omega_floor : epsilon_floor; }
@@ -226,10 +230,27 @@ void Turbulence::fill_rates(const Mesh& m, int j, const State& s, const RowRates
     vector_loop(0, m.nx, [&](int i) { gain[i] += given[i]; });
   };
   add(source_k_, to.gain_k), add(source_e_, to.gain_e);
+  if (j < s.load.top) add_grains(j, s, to);
   if (!with_omega()) return;
   const auto before = [](const WallPlace& a, int row) { return a.j < row; };
   for (auto a = std::lower_bound(walls_.begin(), walls_.end(), j, before); a != walls_.end() && a->j == j; ++a)
     to.gain_k[a->i] = a->gain, to.decay_k[a->i] += a->decay;
+}
+
+void Turbulence::add_grains(int j, const State& s, const RowRates& to) const {
+  // omega = epsilon/(Cmu k) loses what epsilon loses beyond k.
+  const double of_e = with_omega() ? grain_damping_epsilon - 1.0 : grain_damping_epsilon;
+  const double *k = s.k.row(j), *e = second(s).row(j), *damping = s.load.damping.row(j), *pores = s.load.pores.row(j);
+  const double c_mu = launder_spalding.c_mu, c_34 = std::pow(c_mu, 0.75);
+  const bool omega = with_omega();
+  vector_loop(0, strain_.nx(), [&](int i) {
+    to.decay_k[i] += damping[i], to.decay_e[i] += of_e * damping[i];
+    // What the second quantity is where the mixing length is kappa times the hydraulic radius.
+    const double turnover = c_34 * std::sqrt(k[i]) / (kappa * (pores[i] > 0 ? pores[i] : 1.0));
+    const double least = omega ? turnover / c_mu : turnover * k[i];
+    const double rate = pores[i] > 0 && e[i] < least ? pore_breakup * turnover * (1.0 - e[i] / least) : 0.0;
+    to.gain_e[i] += rate * least, to.decay_e[i] += rate;
+  });
 }
 
 template <class Fill>

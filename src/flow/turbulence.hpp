@@ -20,6 +20,9 @@ public:
   void prepare(const Mesh& mesh, const Boundary& boundary, const Params& params, double ahead, State& s,
                const Workspace& w);
 
+  /// Takes k and the second quantity at the inlet.
+  void set_inlet(const Boundary& boundary);
+
   /// nut <- k, epsilon and the velocity, of a state that no step has made.
   void start(const Mesh& mesh, const Boundary& boundary, const Params& params, State& s, const Workspace& w);
 
@@ -77,6 +80,8 @@ private:
     std::vector<int> of_wall;  ///< index of the cell of each place at a wall
   };
   static double shear_velocity(const WallPlace& place, const State& s, const Workspace& w);
+  /// What grains do to row j: they take k, and no eddy in a pore is larger than the pore.
+  void add_grains(int j, const State& s, const RowRates& to) const;
   template <class Fill>
   void with_diffusion(bool of_k, Fill&& fill) const;
   void set_walls(const Params& params, const State& s, const Workspace& w);

@@ -16,7 +16,7 @@ namespace livebed::run {
 
 namespace {
 
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 
 /// Calls visit(name, field) for every field of the flow that the next step reads.
 template <class FlowState, class Visit>
@@ -28,6 +28,7 @@ void each_field(FlowState& s, Visit&& visit) {
   visit("convection_k", s.convection_k), visit("convection_e", s.convection_e);
   visit("beta_u", s.load.beta_u), visit("beta_v", s.load.beta_v);
   visit("force_u", s.load.force_u), visit("force_v", s.load.force_v);
+  visit("damping", s.load.damping), visit("pores", s.load.pores), visit("voidage", s.voidage);
 }
 
 template <class GroupLike, class ClockLike, class WallLike, class ProgressLike>
@@ -55,14 +56,22 @@ void save_checkpoint(const std::filesystem::path& file, Simulation& sim, const P
   root.write("case", casefile::resolved_text(sim.resolved()));
   root.write("bed_level", sim.resolved().bed_thickness);
   Simulation::each_part(
-      sim, [&](flow::State& s, grains::Bed& bed, coupling::Coupler& coupler, Clock& clock, WallTimes& wall) {
+      sim, [&](flow::Solver& solver, grains::Bed& bed, coupling::Coupler& coupler, Clock& clock, WallTimes& wall) {
+        const flow::State& s = solver.state;
         io::Group flow = root.make("flow");
-        each_field(s, [&](const char* name, const base::Field& f) { flow.write(name, f); });
-        pass(flow, "step", std::as_const(s.step)), pass(flow, "time", std::as_const(s.time));
+        each_field(s, [&](const char* name, const base::Field& f) {
+          if (f.nx() > 0) flow.write(name, f);
+        });
+        pass(flow, "step", s.step), pass(flow, "time", s.time), pass(flow, "load_top", s.load.top);
+        pass(flow, "has_voids", s.voidage.nx() > 0);
+        const flow::Boundary& sides = solver.boundary();
+        flow.write("inlet_u", sides.inlet_u), flow.write("inlet_k", sides.inlet_k);
+        flow.write("inlet_epsilon", sides.inlet_epsilon);
         io::Group grains = root.make("grains");
         if (bed.state.count() > 0) write_bed(grains, bed);
         io::Group exchange = root.make("exchange");
-        coupler.each_field([&](const char* name, const base::Field& f) { exchange.write(name, f); });
+        coupling::Coupler::each_part(std::as_const(coupler),
+                                     [&](const char* name, const auto& part) { exchange.write(name, part); });
         const coupling::ImpulseLedger& l = coupler.ledger();
         exchange.write("ledger", std::vector<double>{l.to_grains.x, l.to_grains.y, l.to_flow.x, l.to_flow.y,
                                                      l.carried.x, l.carried.y});
@@ -92,19 +101,26 @@ Restored load_checkpoint(const std::filesystem::path& file) {
   grains::Bed bed;
   if (resolved.grains.count > 0) bed = read_bed(root.open("grains"), resolved.grains);
   Restored result{Simulation(resolved, std::move(bed)), {}, {}};
-  Simulation::each_part(result.sim,
-                        [&](flow::State& s, grains::Bed&, coupling::Coupler& coupler, Clock& clock, WallTimes& wall) {
-                          const io::Group flow = root.open("flow");
-                          each_field(s, [&](const char* name, base::Field& f) { flow.read(name, f); });
-                          pass(flow, "step", s.step), pass(flow, "time", s.time);
-                          const io::Group exchange = root.open("exchange");
-                          coupler.each_field([&](const char* name, base::Field& f) { exchange.read(name, f); });
-                          std::vector<double> l;
-                          exchange.read("ledger", l);
-                          coupler.restore_ledger({{l.at(0), l.at(1)}, {l.at(2), l.at(3)}, {l.at(4), l.at(5)}});
-                          const io::Group run = root.open("run");
-                          pass_scalars(run, clock, wall, result.progress);
-                        });
+  Simulation::each_part(
+      result.sim, [&](flow::Solver& solver, grains::Bed&, coupling::Coupler& coupler, Clock& clock, WallTimes& wall) {
+        flow::State& s = solver.state;
+        const io::Group flow = root.open("flow");
+        bool voids = false;
+        pass(flow, "has_voids", voids);
+        if (voids) s.voidage = s.u;
+        each_field(s, [&](const char* name, base::Field& f) {
+          if (f.nx() > 0) flow.read(name, f);
+        });
+        pass(flow, "step", s.step), pass(flow, "time", s.time), pass(flow, "load_top", s.load.top);
+        if (voids) solver.set_voidage(base::Field(s.voidage), 0);
+        const io::Group exchange = root.open("exchange");
+        coupling::Coupler::each_part(coupler, [&](const char* name, auto& part) { exchange.read(name, part); });
+        std::vector<double> l;
+        exchange.read("ledger", l);
+        coupler.restore_ledger({{l.at(0), l.at(1)}, {l.at(2), l.at(3)}, {l.at(4), l.at(5)}});
+        const io::Group run = root.open("run");
+        pass_scalars(run, clock, wall, result.progress);
+      });
   const auto differs = [&](const char* what, const std::string& then, std::string_view now) {
     if (then != now)
       result.note += fmt::format("{}the checkpoint was written by {} {}, this is {}", result.note.empty() ? "" : "; ",

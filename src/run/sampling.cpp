@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/profiles.hpp"
 #include "grains/measures.hpp"
+#include "run/shear.hpp"
 
 namespace livebed::run {
 
@@ -67,38 +67,6 @@ Sampler::Sampler(const Simulation& sim)
   original_.level = mean_level(x_, bed_line(solid_, original_.packed), solid_.pipe());
 }
 
-double Sampler::measured_theta(const Simulation& sim) const {
-  const casefile::Case& c = sim.resolved();
-  const flow::Mesh& m = sim.flow().mesh();
-  const flow::State& s = sim.flow().state;
-  const double rho = c.flow.density;
-  // Upstream of the pipe, out of reach of the inlet; without a pipe the middle of the box.
-  const bool pipe = c.flow.pipe.present;
-  const double from = pipe ? 0.25 * c.flow.pipe.x : 0.3 * m.length();
-  const double to = pipe ? c.flow.pipe.x - 1.5 * c.flow.pipe.diameter : 0.9 * m.length();
-  const int plane =
-      static_cast<int>(std::lower_bound(m.y.begin(), m.y.end() - 1, original_.level - 1e-9 * m.height()) - m.y.begin());
-  const auto stress_at_bed = [&](int i) {
-    const double nut = 0.25 * (s.nut(i - 1, plane - 1) + s.nut(i, plane - 1) + s.nut(i - 1, plane) + s.nut(i, plane));
-    const double shear =
-        (s.u(i, plane) - s.u(i, plane - 1)) / m.dy_face(plane) + (s.v(i, plane) - s.v(i - 1, plane)) / m.dx_face(i);
-    const double u = 0.5 * (s.u(i, plane) + s.u(i, plane - 1)), v = 0.5 * (s.v(i, plane) + s.v(i - 1, plane));
-    double drag = 0;
-    for (int j = plane; j < m.ny; ++j) drag += (s.load.beta_u(i, j) * s.u(i, j) - s.load.force_u(i, j)) * m.dy(j);
-    return rho * (c.flow.viscosity + nut) * shear - rho * u * v + drag;
-  };
-  double stress = 0, length = 0;
-  for (int i = 1; i < m.nx; ++i) {
-    if (m.x[i] < from || m.x[i] > to) continue;
-    const double width = m.dx_face(i);
-    stress += width * (plane > 0 ? stress_at_bed(i) : rho * base::square(sim.flow().floor_shear_velocity(i)));
-    length += width;
-  }
-  if (length == 0) return 0;
-  const double u_star = std::sqrt(std::max(0.0, stress / length) / rho);
-  return flow::shields(u_star, c.grains.density / rho, c.grains.gravity, c.grains.diameter);
-}
-
 Sample Sampler::sample(const Simulation& sim) {
   const casefile::Case& c = sim.resolved();
   const grains::State& g = sim.bed().state;
@@ -118,7 +86,7 @@ Sample Sampler::sample(const Simulation& sim) {
   const base::Vec2 error = sim.coupler().ledger().error();
   result.time = sim.time();
   result.depth_over_D = hole.depth / D;
-  result.theta = measured_theta(sim);
+  result.theta = measured_shields(c, sim.flow(), original_.level);
   result.largest_overlap = contacts.largest_overlap;
   result.row = {result.time,
                 c.time_scale > 0 ? result.time / c.time_scale : 0.0,

@@ -43,11 +43,6 @@ public:
   void restore(const Original& original) { original_ = original; }
 
   Sample sample(const Simulation& sim);
-  /// Shields parameter of the flow's total shear stress at the original bed level, upstream of the pipe: viscous and
-  /// turbulent stress on that plane, momentum carried through it, and drag on the grains above it.  Without grains that
-  /// of the friction on the floor.
-  double measured_theta(const Simulation& sim) const;
-
   const std::vector<double>& x() const { return x_; }  ///< of the bed line [m]
 
 private:

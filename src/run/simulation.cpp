@@ -9,6 +9,7 @@
 #include "case/check.hpp"
 #include "grains/measures.hpp"
 #include "run/sampling.hpp"
+#include "run/shear.hpp"
 
 namespace livebed::run {
 
@@ -88,8 +89,9 @@ Simulation::Simulation(const casefile::Case& resolved, grains::Bed bed)
     : case_(resolved),
       bed_(std::move(bed)),
       flow_(resolved.flow, mesh_of(resolved), flow::make_boundary(mesh_of(resolved), resolved.flow)),
-      coupler_(resolved.coupling, flow_.mesh(), flow_.at_u(), flow_.at_v(), resolved.grains.diameter,
-               resolved.flow.density, resolved.flow.viscosity),
+      coupler_(resolved.coupling, flow_,
+               {resolved.grains.diameter, resolved.grains.density, resolved.grains.added_mass, resolved.flow.viscosity,
+                resolved.grains.count, resolved.grains.seed}),
       solid_(flow_.mesh().nx, flow_.mesh().ny) {
   flow_.start();
 }
@@ -109,7 +111,7 @@ void Simulation::spin_up_step() {
   const double dt = flow_.step_limit();
   if (has_grains()) {
     Stopwatch watch(wall_.exchange);
-    coupler_.load_flow(bed_.state, flow_.state, dt, true);
+    coupler_.load_flow(bed_.state, flow_, dt, true);
   }
   advance_flow(dt);
   last_step_ = dt;
@@ -125,18 +127,18 @@ void Simulation::step() {
   const double dt = substeps * grain_step;
   if (has_grains()) {
     Stopwatch watch(wall_.exchange);
-    coupler_.load_flow(bed_.state, flow_.state, dt, false);
+    coupler_.load_flow(bed_.state, flow_, dt, false);
   }
   advance_flow(dt);
   if (has_grains()) {
     {
       Stopwatch watch(wall_.exchange);
-      coupler_.push_grains(flow_.state, bed_.state);
+      coupler_.push_grains(flow_, bed_.state, dt);
     }
     advance_grains(substeps);
     grain_force_ = (1.0 / (dt * case_.grains.diameter)) * bed_.pipe_impulse;
     Stopwatch watch(wall_.exchange);
-    coupler_.collect(bed_.state, flow_.state, dt);
+    coupler_.collect(bed_.state, flow_, dt);
   }
   last_step_ = dt;
   ++clock_.flow_steps;
@@ -148,6 +150,7 @@ void Simulation::advance_flow(double dt) {
   try {
     report_ = flow_.advance(dt);
     check_finite();
+    if (case_.flow.current.profile == flow::Profile::recycled) recycle_inlet(case_, case_.bed_thickness, dt, flow_);
   } catch (const base::Fault& fault) {
     fail_here(fault);
   }

@@ -76,7 +76,7 @@ public:
   /// What a checkpoint saves and restores, each part under its own name; see run/checkpoint.
   template <class Self, class Visit>
   static void each_part(Self& self, Visit&& visit) {
-    visit(self.flow_.state, self.bed_, self.coupler_, self.clock_, self.wall_);
+    visit(self.flow_, self.bed_, self.coupler_, self.clock_, self.wall_);
   }
 
 private:

@@ -45,7 +45,7 @@ const Bad bad_cases[] = {
     {"key_twice", "theta = 0.4\n", "bad.toml:3: theta is given twice"},
     {"table_twice", "[bed]\ncount = 9\n[current]\nprofile = \"rough\"\n", "bad.toml:5: current is given twice"},
     {"unknown_key", "[coupling]\ndrg = \"paper\"\n",
-     "bad.toml:4: unknown key coupling.drg; did you mean coupling.drag (paper)?"},
+     "bad.toml:4: unknown key coupling.drg; did you mean coupling.drag (paper, di_felice, gidaspow, rong)?"},
     {"key_in_the_wrong_table", "[flow]\nrestitution = 0.5\n",
      "bad.toml:4: unknown key flow.restitution; did you mean contact.restitution?"},
     {"steady_projection", "[flow]\nsteady = true\n",
@@ -88,7 +88,7 @@ const Bad bad_cases[] = {
     {"word_with_underscore", "[coupling]\nmode = \"two_way\"\n",
      "bad.toml:4: coupling.mode = \"two_way\" is not one of none, one-way, two-way; did you mean two-way?"},
     {"word_like_none", "[coupling]\nvoidage = \"sometimes\"\n",
-     "bad.toml:4: coupling.voidage = \"sometimes\" is not one of off"},
+     "bad.toml:4: coupling.voidage = \"sometimes\" is not one of off, on"},
     // units
     {"wrong_unit", "[grains]\ndiameter = \"0.36 kg\"\n",
      "bad.toml:4: grains.diameter = \"0.36 kg\" has the wrong unit kg; a length (m, cm, mm) is expected"},

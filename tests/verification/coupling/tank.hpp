@@ -26,7 +26,8 @@ public:
   Experiment(const Tank& tank, const std::vector<Body>& bodies)
       : solver_(params_of(tank), mesh_of(tank), closed()),
         bed_(grains::make_bed(grains_of(tank, bodies.size()))),
-        coupler_(tank.coupling, solver_.mesh(), solver_.at_u(), solver_.at_v(), diameter, density, tank.viscosity) {
+        coupler_(tank.coupling, solver_,
+                 {diameter, 2650, bed_.params.added_mass, tank.viscosity, bed_.params.count, 1}) {
     solver_.start();
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       bed_.state.x[k] = bodies[k].x, bed_.state.y[k] = bodies[k].y;
@@ -38,11 +39,11 @@ public:
   /// One coupled step of `substeps` grain steps.
   void step(int substeps) {
     const double dt = substeps * bed_.params.step;
-    coupler_.load_flow(bed_.state, solver_.state, dt, false);
+    coupler_.load_flow(bed_.state, solver_, dt, false);
     solver_.advance(dt);
-    coupler_.push_grains(solver_.state, bed_.state);
+    coupler_.push_grains(solver_, bed_.state, dt);
     grains::advance(bed_, substeps);
-    coupler_.collect(bed_.state, solver_.state, dt);
+    coupler_.collect(bed_.state, solver_, dt);
   }
 
   const flow::Solver& solver() const { return solver_; }
