@@ -13,7 +13,8 @@ endfunction()
 function(livebed_embed_validation target)
   set(folder ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
   foreach(name ghia1982_cavity_u ghia1982_cavity_v cylinder_laminar channel_dns_retau180 bfs_driver_seegmiller_cf
-               bfs_driver_seegmiller_cp bfs_driver_seegmiller_profiles dem_chung_ooi_test4)
+               bfs_driver_seegmiller_cp bfs_driver_seegmiller_profiles dem_chung_ooi_test4 sheetflow_revilbaudard2015_phi
+               sheetflow_revilbaudard2015_u_stress)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/data/${name}.csv)
     file(READ ${folder}/data/${name}.csv ${name})
   endforeach()

@@ -244,10 +244,10 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
                 mesh.height - bed);
   keys({"coupling.kernel", "grains.diameter", "mesh.cell_x", "mesh.cell_y"})
       .fault_if(
-          c.coupling.mode != coupling::Mode::none && c.coupling.kernel * d < 0.5 * std::max(mesh.cell_x, mesh.cell_y),
-          "coupling.kernel = {} reaches {:.4g} m, less than half a cell of {} m: give at least {:.3g}",
+          c.coupling.mode != coupling::Mode::none && c.coupling.kernel * d < 0.25 * std::max(mesh.cell_x, mesh.cell_y),
+          "coupling.kernel = {} reaches {:.4g} m, less than a quarter of a cell of {} m: give at least {:.3g}",
           c.coupling.kernel, c.coupling.kernel * d, std::max(mesh.cell_x, mesh.cell_y),
-          0.5 * std::max(mesh.cell_x, mesh.cell_y) / d);
+          0.25 * std::max(mesh.cell_x, mesh.cell_y) / d);
 
   keys({"coupling.kernel", "grains.diameter", "mesh.cell_x", "mesh.cell_y"})
       .fault_if(c.coupling.mode != coupling::Mode::none &&
@@ -258,7 +258,7 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
 
   keys({"coupling.turbulence", "coupling.dispersion", "flow.closure"})
       .fault_if(
-          c.flow.closure == flow::Closure::laminar && (c.coupling.turbulence == coupling::Turbulence::damped ||
+          c.flow.closure == flow::Closure::laminar && (c.coupling.turbulence != coupling::Turbulence::untouched ||
                                                        c.coupling.dispersion == coupling::Dispersion::random_walk),
           "coupling.turbulence and coupling.dispersion need the turbulence that flow.closure = \"laminar\" has "
           "not: give \"untouched\" and \"none\"");

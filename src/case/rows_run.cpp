@@ -47,18 +47,20 @@ void add_coupling(std::vector<Row>& s) {
                                    {{"none", coupling::Lift::none}, {"saffman_mei", coupling::Lift::saffman_mei}})
                   .says("lift of a grain in sheared water")
                   .from("none"));
-  s.push_back(word<coupling::Turbulence>(
-                  "coupling.turbulence", coupling(&C::turbulence),
-                  {{"untouched", coupling::Turbulence::untouched}, {"damped", coupling::Turbulence::damped}})
-                  .says("do grains that do not follow the eddies take k from them?")
-                  .from("untouched"));
+  s.push_back(
+      word<coupling::Turbulence>("coupling.turbulence", coupling(&C::turbulence),
+                                 {{"untouched", coupling::Turbulence::untouched},
+                                  {"bounded", coupling::Turbulence::bounded},
+                                  {"damped", coupling::Turbulence::damped}})
+          .says("what grains do to the eddies; bounded: none among them is larger than its distance from the packed "
+                "bed; damped: besides, grains that do not follow the eddies take k from them")
+          .from("untouched"));
   s.push_back(real("coupling.turbulence_inertia", "-", coupling(&C::turbulence_inertia))
                   .within(0, 10)
                   .says("B of the share exp(-B St) of an eddy's motion that a grain follows"));
-  s.push_back(real("coupling.pore_scale", "-", coupling(&C::pore_scale))
+  s.push_back(real("coupling.room_scale", "-", coupling(&C::room_scale))
                   .above(0, 10)
-                  .says("largest mixing length of damped turbulence between grains, over kappa times the hydraulic "
-                        "radius of the pores"));
+                  .says("largest mixing length among grains over kappa times that distance"));
   s.push_back(word<coupling::Dispersion>(
                   "coupling.dispersion", coupling(&C::dispersion),
                   {{"none", coupling::Dispersion::none}, {"random_walk", coupling::Dispersion::random_walk}})

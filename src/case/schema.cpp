@@ -43,11 +43,12 @@ const std::vector<std::string>& presets() {
 const std::vector<Choice>& choices() {
   // The damping of the paper, alpha_cn = 1 with 20 steps, never comes to rest in a dense bed: 80 steps do.  Over a
   // smooth plane the lowest grains roll and the whole bed slides downstream, so both presets stand on fixed grains.
-  static const std::vector<Choice> rows{{"flow.convection", "hybrid", "bounded"},
+  static const std::vector<Choice> rows{{"flow.closure", "k_epsilon", "k_epsilon_realizable"},
+                                        {"flow.convection", "hybrid", "bounded"},
                                         {"current.profile", "rough", "rough"},
                                         {"bed.floor", "grains", "grains"},
                                         {"bed.start", "lattice", "scattered"},
-                                        {"grains.spread", "0", "0.05"},
+                                        {"grains.spread", "0", "0.2"},
                                         {"grains.inertia", "disk", "sphere"},
                                         {"contact.steps", "80", "30"},
                                         {"contact.damping", "1.0", ""},
@@ -55,10 +56,18 @@ const std::vector<Choice>& choices() {
                                         {"contact.wall_factor", "2", "2"},
                                         {"contact.tension", "spring", "none"},
                                         {"contact.friction_limit", "spring", "total"},
+                                        {"contact.rolling_friction", "0", "0.1"},
                                         {"time.grain_step", "1e-5", "1e-5"},
                                         {"coupling.mode", "two-way", "two-way"},
                                         {"coupling.exchange", "lagged", "implicit"},
-                                        {"coupling.voidage", "off", "off"}};
+                                        {"coupling.voidage", "off", "on"},
+                                        {"coupling.drag", "paper", "di_felice"},
+                                        {"coupling.drag_viscous", "24", "26.4"},
+                                        {"coupling.drag_infinity", "0.4", "1.27"},
+                                        {"coupling.lift", "none", "saffman_mei"},
+                                        {"coupling.turbulence", "untouched", "bounded"},
+                                        {"coupling.dispersion", "none", "random_walk"},
+                                        {"coupling.kernel", "2", "1"}};
   return rows;
 }
 

@@ -1,6 +1,7 @@
 #include "coupling/exchange.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "base/loops.hpp"
 #include "base/math.hpp"
@@ -109,6 +110,13 @@ double Coupler::response_time(const grains::State& g, int k) const {
   return inertia * base::sphere_volume(g.diameter[k]) / g.fluid.beta[k];
 }
 
+double Coupler::step_limit(const grains::State& g) const {
+  double limit = std::numeric_limits<double>::infinity();
+  if (params_.voidage == Voidage::off || params_.mode != Mode::two_way) return limit;
+  for (int k = 0; k < g.count(); ++k) limit = std::min(limit, response_time(g, k));
+  return step_over_response * limit;
+}
+
 void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double interval) {
   if (params_.voidage == Voidage::off && params_.drag == Drag::paper && params_.turbulence == Turbulence::untouched)
     return;
@@ -116,7 +124,7 @@ void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double inte
   for_each_item(0, ny_, [&](int j) {
     double* e = voids_.row(j);
     if (uniform_) level(e, 0, nx_);
-    vector_loop(0, nx_, [&](int i) { e[i] = std::max(voidage_least, 1.0 - e[i]); });
+    vector_loop(0, nx_, [&](int i) { e[i] = std::clamp(1.0 - e[i], voidage_least, 1.0); });
   });
   at_c_.gather(voids_, voidage_);
   if (params_.voidage == Voidage::on && params_.mode == Mode::two_way)
@@ -179,12 +187,13 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   const int before = load.top;
   top_ = rows_with_grains(g);
   load.top = std::max(top_, before - 1);
-  const bool damped = params_.turbulence == Turbulence::damped, walks = params_.dispersion == Dispersion::random_walk;
+  const bool damped = params_.turbulence == Turbulence::damped, bounded = params_.turbulence != Turbulence::untouched,
+             walks = params_.dispersion == Dispersion::random_walk;
   if (damped || walks) at_c_.gather(std::array<const Field*, 2>{&s.k, &s.epsilon}, {&eddy_k_, &eddy_epsilon_});
   if (walks && !held) feel_eddies(g, flow, dt);
   if (params_.mode == Mode::one_way) return;
 
-  for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v, &load.damping, &load.pores})
+  for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v, &load.damping, &load.room})
     for (int j = 0; j < std::max(before, load.top); ++j) std::fill(f->row(j), f->row(j) + nx_ + 1, 0.0);
   if (held || params_.exchange == Exchange::implicit) {
     at_u_.scatter(std::array{&load.beta_u, &load.force_u}, [&](int k) {
@@ -210,19 +219,42 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   };
   per_volume(flow.at_u(), owed_u_, load.beta_u, load.force_u);
   per_volume(flow.at_v(), owed_v_, load.beta_v, load.force_v);
-  if (!damped) return;
-  load_eddies(g, load);
+  if (!bounded) return;
+  bound_eddies(flow.mesh(), load);
+  if (damped) load_eddies(g, load);
   for_each_item(0, load.top, [&](int j) {
     const Volumes v(flow.at_c(), j, slab_ * density_);
-    double *rate = load.damping.row(j), *pores = load.pores.row(j);
+    double* rate = load.damping.row(j);
     if (uniform_) level(rate, 0, nx_);
-    const double *e = voids_.row(j), largest = params_.pore_scale * slab_ / 6.0;
-    // Hydraulic radius: volume of the pores over the surface of the spheres, d e / (6 (1 - e)).
-    vector_loop(0, nx_, [&](int i) {
-      rate[i] = v[i] > 0 ? rate[i] / v[i] : 0.0;
-      pores[i] = v[i] > 0 && e[i] < 1.0 ? largest * e[i] / (1.0 - e[i]) : 0.0;
-    });
+    vector_loop(0, nx_, [&](int i) { rate[i] = v[i] > 0 ? rate[i] / v[i] : 0.0; });
   });
+}
+
+void Coupler::bound_eddies(const flow::Mesh& m, flow::Load& load) {
+  // Shortest way through the cells, each step counting as much as it is free of grains: down to the packed bed from
+  // the west and from below, then from the east and from above.
+  Field& way = slope_u_;
+  const double far = m.height();
+  const auto step = [&](double& here, int i, int j, int from_i, int from_j, double length) {
+    const double solid = 2.0 - voids_(i, j) - voids_(from_i, from_j);
+    here = std::min(here, way(from_i, from_j) + length * std::max(0.0, 1.0 - 0.5 * solid / packed_solid));
+  };
+  for (int j = 0; j < load.top; ++j)
+    for (int i = 0; i < nx_; ++i) {
+      double here = 1.0 - voids_(i, j) > packed_share * packed_solid ? 0.0 : far;
+      if (j > 0) step(here, i, j, i, j - 1, m.dy_face(j));
+      if (i > 0) step(here, i, j, i - 1, j, m.dx_face(i));
+      way(i, j) = here;
+    }
+  const double least = room_least * slab_;
+  for (int j = load.top - 1; j >= 0; --j)
+    for (int i = nx_ - 1; i >= 0; --i) {
+      double& here = way(i, j);
+      if (j + 1 < load.top) step(here, i, j, i, j + 1, m.dy_face(j + 1));
+      if (i + 1 < nx_) step(here, i, j, i + 1, j, m.dx_face(i + 1));
+      const bool among = 1.0 - voids_(i, j) > solid_least;
+      load.room(i, j) = among ? std::max(params_.room_scale * here, least) : 0.0;
+    }
 }
 
 void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) {

@@ -17,6 +17,15 @@ using DragLaw = std::variant<PaperDrag, DiFeliceDrag, GidaspowDrag, RongDrag>;
 /// below that the kernel has put a share of a grain where a sliver of water is.
 inline constexpr double voidage_least = 0.3;
 
+/// Largest step of the flow over the response time of any grain [-].  The water learns a step late what the grains do,
+/// through drag and through the room that they leave: in a dense bed that swings more and more beyond 0.7.
+inline constexpr double step_over_response = 0.3;
+
+/// The bed counts as packed, and its water as unmixed, from this share of the packed solid fraction on [-].
+inline constexpr double packed_solid = 0.55, packed_share = 0.9;
+inline constexpr double solid_least = 1e-3;  ///< fewer grains leave the eddies alone [-]
+inline constexpr double room_least = 0.02;   ///< of the packed bed over d; keeps its dissipation finite
+
 /// Sums of all impulses since the release [N s]; in the slab of thickness b.  The force of the pressure gradient is not
 /// among them: the water's own equation holds its counterpart.
 struct ImpulseLedger {
@@ -57,6 +66,9 @@ public:
   /// Step 4.
   void collect(const grains::State& g, const flow::Solver& flow, double dt);
 
+  /// Longest step that the exchange bears [s], from the drag of the last one.
+  double step_limit(const grains::State& g) const;
+
   /// Solid volume fraction in cells [-] (spheres in the slab), smoothed by the kernel.
   void solid_fraction(const grains::State& g, base::Field& fraction);
 
@@ -83,6 +95,9 @@ private:
   void fill_voids(const grains::State& g, flow::Solver& flow, double interval);
   void add_up_solids(const grains::State& g, base::Field& fraction) const;
   void feel_eddies(const grains::State& g, const flow::Solver& flow, double dt);
+  /// load.room <- distance of each cell with grains from the packed bed, ways through grains counting less by what
+  /// they fill (Li and Sawamoto 1995, Coastal Eng. Japan 38, 1: dl/dy = kappa (1 - solid/packed)).
+  void bound_eddies(const flow::Mesh& m, flow::Load& load);
   void load_eddies(const grains::State& g, flow::Load& load);
   void feel_water(const flow::Solver& flow, grains::State& g, double dt);
   double response_time(const grains::State& g, int k) const;

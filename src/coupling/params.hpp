@@ -28,8 +28,10 @@ enum class AddedMass { grain, relative };
 /// saffman_mei: lift of a sheared grain, Saffman (1965) with the correction of Mei (1992).
 enum class Lift { none, saffman_mei };
 
-/// What the grains do to the turbulence.  damped: they take k from it as far as they do not follow its eddies.
-enum class Turbulence { untouched, damped };
+/// What the grains do to the turbulence.  bounded: no eddy among them is larger than its
+/// distance from the packed bed, in which nothing mixes; damped: besides, they
+/// take k from it as far as they do not follow its eddies.
+enum class Turbulence { untouched, bounded, damped };
 
 /// random_walk: each grain feels a fluctuation of the modelled k with the time scale of its eddies.
 enum class Dispersion { none, random_walk };
@@ -45,8 +47,8 @@ struct Params {
   AddedMass added_mass = AddedMass::grain;
   Lift lift = Lift::none;
   Turbulence turbulence = Turbulence::untouched;
-  double turbulence_inertia = 1;  ///< B of the share exp(-B St) of an eddy's motion that a grain follows [-]
-  double pore_scale = 1;          ///< largest mixing length between grains over kappa x hydraulic radius [-]
+  double turbulence_inertia = 0.25;  ///< B of the share exp(-B St) of an eddy's motion that a grain follows [-]
+  double room_scale = 0.5;           ///< largest mixing length among grains over kappa x that distance [-]
   Dispersion dispersion = Dispersion::none;
   double dispersion_time = 0.2;  ///< Lagrangian time scale over k/epsilon [-]
   double kernel = 2;             ///< half-width of the transfer kernel over the grain diameter [-]

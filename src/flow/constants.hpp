@@ -16,8 +16,8 @@ inline constexpr KEpsilon launder_spalding{};
 
 /// Grains that take k from the eddies at the rate r take epsilon at this times r (Chauchat et al. 2017, C_3epsilon).
 inline constexpr double grain_damping_epsilon = 1.2;
-/// Eddies larger than the pores they are in break up this many times faster than they turn over.
-inline constexpr double pore_breakup = 10;
+/// Eddies larger than the room between the grains break up this many times faster than they turn over.
+inline constexpr double breakup = 100;
 inline constexpr double k_floor = 1e-10;         ///< [m2/s2], water at rest; keeps k^2/epsilon defined
 inline constexpr double epsilon_floor = 1e-12;   ///< [m2/s3]; with k_floor: nut = 1e-9 m2/s, far below nu
 inline constexpr double nut_over_nu_most = 1e5;  ///< only hit by a start from rest, where epsilon is tiny and k not yet

@@ -11,7 +11,7 @@ struct Load {
   base::Field beta_u, beta_v;    ///< [kg m-3 s-1] on the faces of u and v
   base::Field force_u, force_v;  ///< [N m-3]
   base::Field damping;           ///< rate at which the grains take k from the eddies [1/s], in cells
-  base::Field pores;             ///< hydraulic radius of the space between them [m], in cells; 0: no bound
+  base::Field room;              ///< largest mixing length between them over kappa [m], in cells; 0: no bound
 };
 
 /// Everything that changes with time.  k, epsilon and nut live half a step ahead of the velocity: each is then centred

@@ -240,15 +240,15 @@ void Turbulence::fill_rates(const Mesh& m, int j, const State& s, const RowRates
 void Turbulence::add_grains(int j, const State& s, const RowRates& to) const {
   // omega = epsilon/(Cmu k) loses what epsilon loses beyond k.
   const double of_e = with_omega() ? grain_damping_epsilon - 1.0 : grain_damping_epsilon;
-  const double *k = s.k.row(j), *e = second(s).row(j), *damping = s.load.damping.row(j), *pores = s.load.pores.row(j);
+  const double *k = s.k.row(j), *e = second(s).row(j), *damping = s.load.damping.row(j), *room = s.load.room.row(j);
   const double c_mu = launder_spalding.c_mu, c_34 = std::pow(c_mu, 0.75);
   const bool omega = with_omega();
   vector_loop(0, strain_.nx(), [&](int i) {
     to.decay_k[i] += damping[i], to.decay_e[i] += of_e * damping[i];
-    // What the second quantity is where the mixing length is kappa times the hydraulic radius.
-    const double turnover = c_34 * std::sqrt(k[i]) / (kappa * (pores[i] > 0 ? pores[i] : 1.0));
+    // What the second quantity is where the mixing length is kappa times the room.
+    const double turnover = c_34 * std::sqrt(k[i]) / (kappa * (room[i] > 0 ? room[i] : 1.0));
     const double least = omega ? turnover / c_mu : turnover * k[i];
-    const double rate = pores[i] > 0 && e[i] < least ? pore_breakup * turnover * (1.0 - e[i] / least) : 0.0;
+    const double rate = room[i] > 0 && e[i] < least ? breakup * turnover * (1.0 - e[i] / least) : 0.0;
     to.gain_e[i] += rate * least, to.decay_e[i] += rate;
   });
 }

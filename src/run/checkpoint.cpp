@@ -28,7 +28,7 @@ void each_field(FlowState& s, Visit&& visit) {
   visit("convection_k", s.convection_k), visit("convection_e", s.convection_e);
   visit("beta_u", s.load.beta_u), visit("beta_v", s.load.beta_v);
   visit("force_u", s.load.force_u), visit("force_v", s.load.force_v);
-  visit("damping", s.load.damping), visit("pores", s.load.pores), visit("voidage", s.voidage);
+  visit("damping", s.load.damping), visit("room", s.load.room), visit("voidage", s.voidage);
 }
 
 template <class GroupLike, class ClockLike, class WallLike, class ProgressLike>

@@ -8,6 +8,7 @@ extern const std::string_view ghia_u, ghia_v;                               ///<
 extern const std::string_view channel_dns;                                  ///< data/channel_dns_retau180.csv
 extern const std::string_view cylinder_laminar;                             ///< data/cylinder_laminar.csv
 extern const std::string_view step_friction, step_pressure, step_profiles;  ///< data/bfs_driver_seegmiller_*.csv
+extern const std::string_view sheet_flow_solid, sheet_flow_speed;           ///< data/sheetflow_revilbaudard2015_*.csv
 extern const std::string_view oblique_impact;                               ///< data/dem_chung_ooi_test4.csv
 
 }  // namespace livebed::validate

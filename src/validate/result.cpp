@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/version.hpp"
+#include "validate/bedload.hpp"
 #include "validate/cavity.hpp"
 #include "validate/channel.hpp"
 #include "validate/cylinder.hpp"
@@ -38,6 +39,8 @@ const std::vector<Case>& cases() {
        step},
       {"step-walls", "the same step with its walls resolved: k-omega SST as it is published", step_walls},
       {"grains", "grains: oblique impacts, energy of a gas, rest for every damping, heaps, bins", grains},
+      {"bedload", "sand on a flat bed: fall speed, heap, threshold and rate of transport, 2 mm and 0.36 mm", bedload},
+      {"sheet-flow", "sheet flow of Revil-Baudard et al. (2015): speed and solid fraction over the height", sheet_flow},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},
       {"oner-depth", "what sets its Strouhal number: depth, approach profile, scheme, grid", oner_depth},
       {"oner-fine", "the same on the paper's 1500 x 260 cells: k-epsilon, e/D 0.3", oner_fine},
