@@ -260,6 +260,7 @@ void Coupler::bound_eddies(const flow::Mesh& m, flow::Load& load) {
 void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) {
   const flow::State& s = flow.state;
   const flow::Staggering& at_c = flow.at_c();
+  const flow::Mesh& m = flow.mesh();
   const double *per_hx = at_c.per_hx.data() + 2, per_dt = 1.0 / dt;
   const bool voids = params_.voidage == Voidage::on, added = params_.added_mass == AddedMass::relative,
              lift = params_.lift == Lift::saffman_mei;
@@ -267,8 +268,9 @@ void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) 
     const double *p = s.p.row(j), *below = s.p.row(j - 1), per_hy = at_c.per_hy[j + 2];
     if (voids) {
       double *along_x = slope_u_.row(j), *along_y = slope_v_.row(j);
-      vector_loop(1, nx_, [&](int i) { along_x[i] = (p[i] - p[i - 1]) * per_hx[i]; });
-      vector_loop(0, nx_, [&](int i) { along_y[i] = (p[i] - below[i]) * per_hy; });
+      const double *open_x = m.aperture_x.row(j), *open_y = m.aperture_y.row(j);
+      vector_loop(1, nx_, [&](int i) { along_x[i] = open_x[i] > sliver ? (p[i] - p[i - 1]) * per_hx[i] : 0.0; });
+      vector_loop(0, nx_, [&](int i) { along_y[i] = open_y[i] > sliver ? (p[i] - below[i]) * per_hy : 0.0; });
     }
     if (added) {
       const double *u = s.u.row(j), *u_old = s.u_old.row(j), *cu = s.convection_u.row(j);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <set>
+#include <toml++/toml.h>
 
 #include "case/manual.hpp"
 #include "case/read.hpp"
@@ -104,10 +105,28 @@ TEST(schema, preset_mbs2d_is_the_paper_and_livebed_is_not) {
   EXPECT_EQ(ours.grains.tension, grains::Tension::none);
   EXPECT_EQ(ours.grains.friction_limit, grains::FrictionLimit::total_force);
   EXPECT_EQ(ours.grains.floor, grains::Floor::grains);
-  EXPECT_EQ(ours.grains.spread, 0.05);
+  EXPECT_EQ(ours.grains.spread, 0.2);
+  EXPECT_EQ(ours.coupling.voidage, coupling::Voidage::on);
+  EXPECT_EQ(paper.coupling.voidage, coupling::Voidage::off);
   EXPECT_EQ(ours.grains.restitution, 0.3);
   EXPECT_EQ(ours.flow.convection, flow::Convection::bounded);
   EXPECT_EQ(ours.coupling.exchange, coupling::Exchange::implicit);
+}
+
+/// The file that says what is calibrated by what is no second place for the numbers.
+TEST(presets, livebed_has_the_calibrated_constants) {
+  const Case ours = preset_case("livebed");
+  const toml::table file = toml::parse_file(LIVEBED_SOURCE_DIR "/cases/calibrated.toml");
+  int constants = 0;
+  for (const auto& [table, keys] : file)
+    for (const auto& [key, value] : *keys.as_table()) {
+      const std::string name = std::string(table.str()) + "." + std::string(key.str());
+      const Row* row = find_row(name);
+      ASSERT_NE(row, nullptr) << name;
+      EXPECT_EQ(std::get<double>(row->get(ours)), *value.value<double>()) << name;
+      ++constants;
+    }
+  EXPECT_GE(constants, 6);
 }
 
 TEST(manual, in_docs_is_the_one_the_schema_makes) {
