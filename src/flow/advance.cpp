@@ -39,7 +39,7 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
 
 void Solver::set_voidage(const Field& voidage, double interval, double margin) {
   state.voidage = voidage;
-  const Mesh before = std::exchange(water_, fill_with_voids(mesh_, voidage));
+  const Mesh before = std::exchange(water_, fill_with_voids(mesh_, voidage, boundary_.inlet));
   at_u_ = Staggering::west_faces(water_);
   at_v_ = Staggering::south_faces(water_);
   at_c_ = Staggering::centres(water_);
@@ -48,9 +48,10 @@ void Solver::set_voidage(const Field& voidage, double interval, double margin) {
   coefficients_set_ = false;
   work_.storage = interval > 0 ? Field(mesh_.nx, mesh_.ny) : Field();
   if (interval <= 0) return;
+  const double from = boundary_.inlet ? margin : 0.0, to = mesh_.length() - (boundary_.outlet ? margin : 0.0);
   for (int j = 0; j < mesh_.ny; ++j)
     for (int i = 0; i < mesh_.nx; ++i)
-      if (mesh_.x[i] >= margin && mesh_.x[i + 1] <= mesh_.length() - margin)
+      if (mesh_.x[i] >= from && mesh_.x[i + 1] <= to)
         work_.storage(i, j) = (water_.volume(i, j) - before.volume(i, j)) * mesh_.dx(i) * mesh_.dy(j) / interval;
 }
 

@@ -33,7 +33,7 @@ public:
 
   /// The share of every cell that holds water [-], 0 < voidage <= 1 (1 at first), from now on; interval: time since the
   /// last one was given [s], over which the difference comes about in the step to come, 0 when it is to count as always
-  /// so.  margin: this near to inlet and outlet [m] grains may come and go at once; there the difference moves no
+  /// so.  margin: this near to an inlet or outlet [m] grains may come and go at once; there the difference moves no
   /// water. Throws Fault (invalid case) for a value out of range.
   void set_voidage(const base::Field& voidage, double interval, double margin = 0);
 

@@ -85,12 +85,11 @@ Mesh make_mesh(const std::vector<double>& x, const std::vector<double>& y, const
   return m;
 }
 
-Mesh fill_with_voids(const Mesh& mesh, const base::Field& voidage) {
+Mesh fill_with_voids(const Mesh& mesh, const base::Field& voidage, bool inlet) {
   Mesh filled = mesh;
   for (int j = 0; j <= mesh.ny; ++j)
     for (int i = 0; i <= mesh.nx; ++i) {
-      // Outer faces are as open as the cells inside them; but what an inlet delivers must not change with every grain
-      // that passes it, so its faces stay as open as without grains.
+      // Outer faces are as open as the cells inside them.
       const int east = std::min(i, mesh.nx - 1), north = std::min(j, mesh.ny - 1);
       const int west = std::max(i - 1, 0), south = std::max(j - 1, 0);
       const double here = voidage(east, north);
@@ -98,7 +97,7 @@ Mesh fill_with_voids(const Mesh& mesh, const base::Field& voidage) {
         base::fail(base::Exit::invalid_case,
                    "void fraction {} in cell ({},{}): above 0 and at most 1 is allowed; fewer or smaller grains there",
                    here, east, north);
-      filled.aperture_x(i, j) *= i > 0 ? 0.5 * (voidage(west, north) + here) : 1.0;
+      filled.aperture_x(i, j) *= i == 0 && inlet ? 1.0 : 0.5 * (voidage(west, north) + here);
       filled.aperture_y(i, j) *= 0.5 * (voidage(east, south) + here);
       filled.volume(i, j) *= here;
     }

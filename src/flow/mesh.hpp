@@ -49,8 +49,9 @@ Mesh make_mesh(const std::vector<double>& x, const std::vector<double>& y, const
 
 /// The mesh with every opening and volume times the share of it that holds water: voidage at cell centres [-], 0 <
 /// voidage <= 1, mean of both cells on faces.  All operators on this mesh are those of the volume-averaged equations,
+/// inlet: what comes in through the west must not change with every grain that passes it: its faces stay as they are.
 ///   d(voidage)/dt + div(voidage u) = 0,   voidage du/dt + ... = - voidage grad p/rho + div(voidage stress) + ...
 /// Throws Fault (invalid case) for a value out of range.
-Mesh fill_with_voids(const Mesh& mesh, const base::Field& voidage);
+Mesh fill_with_voids(const Mesh& mesh, const base::Field& voidage, bool inlet = false);
 
 }  // namespace livebed::flow

@@ -163,8 +163,9 @@ const Bad bad_cases[] = {
     {"pipe_outside_the_fine_window", "[mesh]\ngrowth = 1.05\nfine_x_from = 0.3\nfine_x_to = 0.4\n",
      "bad.toml:6: the pipe, 0.175 m to 0.225 m, leaves the fine window mesh.fine_x_from = 0.3 m to mesh.fine_x_to = "
      "0.4 m"},
-    {"kernel_between_the_cells", "[coupling]\nkernel = 0.5\n",
-     "bad.toml:4: coupling.kernel = 0.5 reaches 0.001 m, less than half a cell of 0.0025 m: give at least 0.625"},
+    {"kernel_between_the_cells", "[coupling]\nkernel = 0.5\n[mesh]\ncell_x = 0.005\n",
+     "bad.toml:4: coupling.kernel = 0.5 reaches 0.001 m, less than a quarter of a cell of 0.005 m: give at least "
+     "0.625"},
     {"kernel_over_too_many_cells", "[coupling]\nkernel = 10\n[mesh]\ncell_x = 0.0005\n",
      "bad.toml:4: coupling.kernel = 10 reaches 0.02 m, more than 20 cells of 0.0005 m: give at most 5"},
     {"cut_beside_thickness", "[bed]\nthickness = 0.05\ncut = 0.04\n",
@@ -213,7 +214,7 @@ const Bad bad_cases[] = {
     {"equilibrium_without_a_pipe", "[time]\nstop_at_equilibrium = true\n[pipe]\npresent = false\n",
      "bad.toml:4: time.stop_at_equilibrium needs a pipe and grains: without them nothing is scoured"},
     {"edited_resolved_case", "[derived]\nbed.count = 3\n",
-     "bad.toml:4: derived.bed.count = 3 contradicts the keys, which give 6520; remove the table [derived]"},
+     "bad.toml:4: derived.bed.count = 3 contradicts the keys, which give 6439; remove the table [derived]"},
     {"unknown_derived_number", "[derived]\ntime.ende = 3.0\n",
      "bad.toml:4: unknown derived number time.ende; did you mean time.end?"},
 };

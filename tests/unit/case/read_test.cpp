@@ -131,7 +131,7 @@ TEST(derive, count_and_thickness_of_the_bed_close_the_circle) {
   const Case thick = read("[current]\ntheta = 0.2\n[bed]\nthickness = \"5 cm\"\n");
   const Case counted = read("[current]\ntheta = 0.2\n", {"bed.count=" + std::to_string(thick.grains.count)});
   EXPECT_NEAR(counted.bed_thickness, 0.05, 0.5 * 0.05 / thick.grains.count);
-  const double area = thick.grains.count * base::pi / 4 * base::square(0.002) * (1 + 0.05 * 0.05 / 3);
+  const double area = thick.grains.count * base::pi / 4 * base::square(0.002) * (1 + 0.2 * 0.2 / 3);
   EXPECT_NEAR(area / (0.5 * 0.05), 0.82, 1e-3);
 }
 
@@ -161,8 +161,8 @@ TEST(derive, sizes_of_a_grading) {
 
 TEST(derive, step_and_stiffness_close_the_circle) {
   const Case by_step = read("[current]\ntheta = 0.2\n", {"time.grain_step=10 us", "contact.steps=20"});
-  // Added mass included; the smallest grains, 0.95 d, set the critical time.
-  EXPECT_NEAR(by_step.grains.stiffness / (6.5e3 * base::cube(0.95)), 1, 0.02);
+  // Added mass included; the smallest grains, 0.8 d, set the critical time.
+  EXPECT_NEAR(by_step.grains.stiffness / (6.5e3 * base::cube(0.8)), 1, 0.02);
   const Case by_stiffness =
       read("[current]\ntheta = 0.2\n", {"contact.stiffness=" + written(by_step.grains.stiffness), "contact.steps=20"});
   EXPECT_NEAR(by_stiffness.grains.step, 1e-5, 1e-17);
@@ -214,7 +214,7 @@ TEST_P(ShippedCase, comes_back_from_its_resolved_text) {
 std::vector<std::filesystem::path> shipped_cases() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(shipped))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    if (entry.path().extension() == ".toml" && entry.path().parent_path() != shipped) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }

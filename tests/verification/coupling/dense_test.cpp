@@ -88,7 +88,8 @@ double hindered_speed(double e) {
 TEST(suspension, falls_slower_the_denser_it_is) {
   const double alone = hindered_speed(1.0);
   for (double spacing : {1.3 * d, 1.8 * d}) {
-    Tank tank{.length = 0.04, .height = 0.3};
+    Tank tank;
+    tank.length = 16 * spacing, tank.height = 0.3, tank.cell = spacing;  // no channel of clear water beside the grains
     tank.coupling = volume_averaged(Drag::di_felice);
     std::vector<Body> bodies;
     for (double y = 0.14; y < 0.28; y += spacing)
