@@ -23,8 +23,8 @@ inline constexpr double step_over_response = 0.3;
 
 /// The bed counts as packed, and its water as unmixed, from this share of the packed solid fraction on [-].
 inline constexpr double packed_solid = 0.55, packed_share = 0.9;
-/// A face with less opening than this passes no pressure gradient on to grains [-]: the pressure in a sliver of a cell is
-/// whatever stops the little that flows there.
+/// A face with less opening than this passes no pressure gradient on to grains [-]: the pressure in a sliver of a cell
+/// is whatever stops the little that flows there.
 inline constexpr double sliver = 0.05;
 inline constexpr double solid_least = 1e-3;  ///< fewer grains leave the eddies alone [-]
 inline constexpr double room_least = 0.02;   ///< of the packed bed over d; keeps its dissipation finite
