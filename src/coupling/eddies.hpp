@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grains/state.hpp"
+#include "base/vec2.hpp"
 
 namespace livebed::coupling {
 
@@ -20,17 +20,10 @@ public:
   struct Eddy {
     double sigma, gradient_x, gradient_y, time, stokes;
   };
-  /// One step of dt [s] for all grains: eddy(k) tells of grain k, add(k, u', v') takes the velocities.
-  template <class Around, class Add>
-  void advance(const grains::State& g, double dt, Around&& eddy, Add&& add) {
-    ++steps_;
-    for (int k = 0; k < g.count(); ++k) {
-      const int id = g.id[k];
-      const Eddy e = eddy(k);
-      move(id, dt, e);
-      add(k, e.sigma * z_x_[id], e.sigma * z_y_[id]);
-    }
-  }
+  /// Comes before the grains of each step.
+  void begin_step() { ++steps_; }
+  /// The fluctuation u' [m/s] that grain `id` feels in a step of dt [s].  Different grains may be asked about at once.
+  base::Vec2 advance(int id, double dt, const Eddy& e);
 
   /// What a checkpoint must hold.
   template <class Self, class Visit>
@@ -39,8 +32,6 @@ public:
   }
 
 private:
-  void move(int id, double dt, const Eddy& e);
-
   std::vector<double> z_x_, z_y_;  ///< by id
   std::int64_t steps_ = 0;
   std::uint64_t seed_ = 0;

@@ -46,6 +46,15 @@ void level(double* values, int first, int last) {
   std::fill(values + first, values + last, mean);
 }
 
+/// Calls body(k) for every grain, on all threads.
+template <class Body>
+void over_grains(int count, Body&& body) {
+  constexpr int block = 1024;
+  for_each_item(0, (count + block - 1) / block, [&](int b) {
+    for (int k = b * block; k < std::min(count, (b + 1) * block); ++k) body(k);
+  });
+}
+
 /// Row j of the volumes of `at` [m3], water alone, slab included.
 class Volumes {
 public:
@@ -120,6 +129,7 @@ double Coupler::step_limit(const grains::State& g) const {
 void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double interval) {
   if (params_.voidage == Voidage::off && params_.drag == Drag::paper && params_.turbulence == Turbulence::untouched)
     return;
+  voids_filled_ = true;
   add_up_solids(g, voids_);
   for_each_item(0, ny_, [&](int j) {
     double* e = voids_.row(j);
@@ -144,13 +154,13 @@ void Coupler::feel_eddies(const grains::State& g, const flow::Solver& flow, doub
   });
   at_u_.gather(slope_u_, slope_x_);
   at_v_.gather(slope_v_, slope_y_);
-  eddies_.advance(
-      g, dt,
-      [&](int k) {
-        const double time = params_.dispersion_time * eddy_k_[k] / eddy_epsilon_[k];
-        return Eddies::Eddy{sigma(eddy_k_[k]), slope_x_[k], slope_y_[k], time, response_time(g, k) / time};
-      },
-      [&](int k, double u, double v) { eddy_u_[k] = u, eddy_v_[k] = v; });
+  eddies_.begin_step();
+  over_grains(g.count(), [&](int k) {
+    const double time = params_.dispersion_time * eddy_k_[k] / eddy_epsilon_[k];
+    const base::Vec2 felt =
+        eddies_.advance(g.id[k], dt, {sigma(eddy_k_[k]), slope_x_[k], slope_y_[k], time, response_time(g, k) / time});
+    eddy_u_[k] = felt.x, eddy_v_[k] = felt.y;
+  });
 }
 
 void Coupler::load_eddies(const grains::State& g, flow::Load& load) {
@@ -166,16 +176,20 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   if (params_.mode == Mode::none) return;
   flow::State& s = flow.state;
   flow::Load& load = s.load;
-  if (!located_) {
-    locate(g);
-    fill_voids(g, flow, dt);
-  }
+  if (!located_) locate(g);
+  if (!voids_filled_) fill_voids(g, flow, dt);
+  const int before = load.top;
+  top_ = rows_with_grains(g);
+  const bool damped = params_.turbulence == Turbulence::damped, bounded = params_.turbulence != Turbulence::untouched,
+             walks = params_.dispersion == Dispersion::random_walk;
+  if (damped || walks) at_c_.gather(std::array<const Field*, 2>{&s.k, &s.epsilon}, {&eddy_k_, &eddy_epsilon_});
+  if (walks && !held) feel_eddies(g, flow, dt);
   at_u_.gather(s.u, g.fluid.u);
   at_v_.gather(s.v, g.fluid.v);
   const double moving = held ? 0.0 : 1.0;
   std::visit(
       [&](const auto& drag) {
-        vector_loop(0, g.count(), [&](int k) {
+        over_grains(g.count(), [&](int k) {
           const double slip_x = g.fluid.u[k] + eddy_u_[k] - moving * g.u[k],
                        slip_y = g.fluid.v[k] + eddy_v_[k] - moving * g.v[k];
           g.fluid.beta[k] =
@@ -183,16 +197,10 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
         });
       },
       drag_);
-  // What is owed to rows that the grains have left is handed over in one more step.
-  const int before = load.top;
-  top_ = rows_with_grains(g);
-  load.top = std::max(top_, before - 1);
-  const bool damped = params_.turbulence == Turbulence::damped, bounded = params_.turbulence != Turbulence::untouched,
-             walks = params_.dispersion == Dispersion::random_walk;
-  if (damped || walks) at_c_.gather(std::array<const Field*, 2>{&s.k, &s.epsilon}, {&eddy_k_, &eddy_epsilon_});
-  if (walks && !held) feel_eddies(g, flow, dt);
   if (params_.mode == Mode::one_way) return;
 
+  // What is owed to rows that the grains have left is handed over in one more step.
+  load.top = std::max(top_, before - 1);
   for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v, &load.damping, &load.room})
     for (int j = 0; j < std::max(before, load.top); ++j) std::fill(f->row(j), f->row(j) + nx_ + 1, 0.0);
   if (held || params_.exchange == Exchange::implicit) {
@@ -303,7 +311,7 @@ void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) 
   }
   if (lift) at_c_.gather(curl_, vorticity_);
 
-  for (int k = 0; k < g.count(); ++k) {
+  over_grains(g.count(), [&](int k) {
     const double volume = base::sphere_volume(g.diameter[k]);
     Before& before = before_[g.id[k]];
     before.velocity = {g.u[k], g.v[k]};
@@ -318,7 +326,7 @@ void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) 
     }
     g.fluid.fx[k] = force.x, g.fluid.fy[k] = force.y;
     g.fluid.u[k] += eddy_u_[k], g.fluid.v[k] += eddy_v_[k];
-  }
+  });
 }
 
 void Coupler::push_grains(const flow::Solver& flow, grains::State& g, double dt) {
@@ -331,10 +339,9 @@ void Coupler::push_grains(const flow::Solver& flow, grains::State& g, double dt)
 }
 
 void Coupler::collect(const grains::State& g, const flow::Solver& flow, double dt) {
-  located_ = false;  // the grains have moved
+  located_ = voids_filled_ = false;  // the grains have moved
   if (params_.mode != Mode::two_way) return;
-  at_u_.locate(g);
-  at_v_.locate(g);
+  locate(g);
   const double relative = params_.added_mass == AddedMass::relative ? materials_.added_mass * density_ : 0.0;
   const auto one = [&](Transfer& to, const flow::Staggering& at, double base::Vec2::*along,
                        const grains::Array& impulse, const grains::Array& speed, const Field& velocity,

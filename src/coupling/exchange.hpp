@@ -115,6 +115,7 @@ private:
   double slab_ = 0, density_ = 0, viscosity_ = 0;
   Transfer at_u_, at_v_, at_c_;
   bool located_ = false;         ///< the weights belong to the present places of the grains
+  bool voids_filled_ = false;    ///< so does the void fraction
   base::Field owed_u_, owed_v_;  ///< impulse owed to the flow [N s]
   ImpulseLedger ledger_;
   Eddies eddies_;
