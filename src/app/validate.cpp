@@ -1,9 +1,11 @@
+#include <csignal>
 #include <fmt/core.h>
 #include <memory>
 
 #include "app/verbs.hpp"
 #include "case/faults.hpp"
 #include "io/file.hpp"
+#include "run/execute.hpp"
 #include "validate/result.hpp"
 
 namespace livebed::app {
@@ -11,6 +13,7 @@ namespace livebed::app {
 namespace {
 
 base::Exit validate_one(const validate::Case& which, const std::string& folder, bool json) {
+  std::signal(SIGINT, run::request_stop), std::signal(SIGTERM, run::request_stop);
   const validate::Result result = which.run([json](const std::string& line) {
     std::FILE* to = json ? stderr : stdout;
     fmt::print(to, "{}\n", line);
@@ -33,7 +36,7 @@ base::Exit validate_one(const validate::Case& which, const std::string& folder, 
 
 void add_validate(CLI::App& app, Action& chosen) {
   struct Options {
-    std::string name, folder = "docs/validation";
+    std::string name, folder = "docs/validation", grain;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
@@ -41,9 +44,11 @@ void add_validate(CLI::App& app, Action& chosen) {
       "validate", "hold whole flows and beds against the literature; without NAME, list what there is");
   verb->add_option("NAME", options->name, "what to validate");
   verb->add_option("--out", options->folder, "folder for NAME.json and its figures")->capture_default_str();
+  verb->add_option("--grain", options->grain, "of mao: 2mm for the paper's grains instead of the experiment's sand");
   verb->add_flag("--json", options->json, "print the numbers as JSON");
   verb->callback([options, &chosen] {
     chosen = [options] {
+      if (!options->grain.empty() && options->grain != "0.36mm") options->name += "-" + options->grain;
       std::vector<std::string> names;
       for (const validate::Case& c : validate::cases()) {
         if (options->name == c.name) return validate_one(c, options->folder, options->json);

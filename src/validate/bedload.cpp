@@ -228,7 +228,9 @@ Result sheet_flow(const Tell& tell) {
     return c;
   };
   const report::Axis height{"height over solid fraction 0.25 [d]", -4, 32};
-  report::Chart speeds{{"speed [m/s]"}, height, {}}, fractions{{"solid fraction [-]"}, height, {}};
+  report::Chart speeds, fractions;
+  speeds.x.name = "speed [m/s]", fractions.x.name = "solid fraction [-]";
+  speeds.y = fractions.y = height;
   speeds.curves = {curve("measured", "#000000", u, z_u, there, true),
                    curve("water", "#1f77b4", run.u, run.y, here, false),
                    curve("grains", "#d62728", run.grain_u, run.y, here, false)};

@@ -12,6 +12,7 @@
 #include "validate/cylinder.hpp"
 #include "validate/duct.hpp"
 #include "validate/grains.hpp"
+#include "validate/mao.hpp"
 #include "validate/oner.hpp"
 #include "validate/step.hpp"
 
@@ -41,6 +42,8 @@ const std::vector<Case>& cases() {
       {"grains", "grains: oblique impacts, energy of a gas, rest for every damping, heaps, bins", grains},
       {"bedload", "sand on a flat bed: fall speed, heap, threshold and rate of transport, 2 mm and 0.36 mm", bedload},
       {"sheet-flow", "sheet flow of Revil-Baudard et al. (2015): speed and solid fraction over the height", sheet_flow},
+      {"mao", "live-bed scour of Mao (1986), his sand of 0.36 mm, in seconds: depth in time, bed profiles; hours", mao},
+      {"mao-2mm", "the same with the paper's grains of 2 mm, time scaled: Figures 11 and 12", mao_paper},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},
       {"oner-depth", "what sets its Strouhal number: depth, approach profile, scheme, grid", oner_depth},
       {"oner-fine", "the same on the paper's 1500 x 260 cells: k-epsilon, e/D 0.3", oner_fine},

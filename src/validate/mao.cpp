@@ -1,0 +1,253 @@
+#include "validate/mao.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/curves.hpp"
+#include "base/fault.hpp"
+#include "base/math.hpp"
+#include "case/read.hpp"
+#include "case/resolved.hpp"
+#include "io/file.hpp"
+#include "io/table.hpp"
+#include "report/references.hpp"
+#include "run/bed_cache.hpp"
+#include "run/execute.hpp"
+#include "validate/picture.hpp"
+#include "validate/references.hpp"
+
+namespace livebed::validate {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double plateau_of_mao = 0.91;
+const std::vector<std::string> colours = {"#1f77b4", "#d62728", "#2ca02c"};
+
+struct Experiment {
+  std::string name;          ///< of folders and files
+  std::string_view text;     ///< the case
+  std::vector<double> ends;  ///< of each seed, from 1 on [s]; 0: the case's own
+  bool scaled = false;       ///< times count as t/T
+};
+
+/// What a run left: depth and bed lines in time.
+struct Scour {
+  unsigned seed = 0;
+  casefile::Case resolved;
+  std::string commit;
+  double wall = 0;
+  std::vector<double> t, depth;            ///< [s], S/D
+  std::vector<double> x, t_lines;          ///< from the pipe's centre [D], [s]
+  std::vector<std::vector<double>> lines;  ///< over the original bed [D]
+};
+
+/// Runs or resumes what is missing.
+void finish(const casefile::Case& c, const fs::path& folder, const Tell& tell) {
+  run::Options options;
+  options.bed_cache = run::default_bed_cache();
+  options.say = tell;
+  double told = -1;
+  options.progress = [&](double t, double end, double depth, double speed, double left) {
+    if (t < told + 0.01 * end) return;
+    told = t;
+    tell(fmt::format("{}: t = {:.2f} of {:.2f} s, S/D = {:.3f}, {:.2g} s/s, {:.1f} h left", folder.filename().string(),
+                     t, end, depth, speed, left / 3600));
+  };
+  base::Exit exit = base::Exit::ok;
+  if (!fs::exists(folder)) {
+    exit = run::execute(c, folder, options);
+  } else {
+    const fs::path summary = folder / "summary.json";
+    const bool ended =
+        fs::exists(summary) && nlohmann::json::parse(io::read_file(summary)).value("time_s", -1.0) >= c.time.end;
+    if (!ended) exit = run::resume(folder, c.time.end, options);
+  }
+  if (exit != base::Exit::ok)
+    base::fail(base::Exit::stopped_by_limit, "{} was stopped before its end; the same command goes on with it",
+               folder.string());
+}
+
+Scour read(const casefile::Case& c, const fs::path& folder, unsigned seed) {
+  Scour s;
+  s.seed = seed;
+  s.resolved = casefile::read_case(folder / "case.resolved.toml");
+  const nlohmann::json summary = nlohmann::json::parse(io::read_file(folder / "summary.json"));
+  s.commit = summary.value("commit", ""), s.wall = summary.value("wall_s", 0.0);
+  const io::Table series = io::read_table(folder / "series.csv"), bed = io::read_table(folder / "bed.csv");
+  s.t = series.column("time_s"), s.depth = series.column("S_over_D");
+  s.t_lines = bed.column("time_s");
+  const double D = c.flow.pipe.diameter;
+  std::vector<const std::vector<double>*> columns;
+  for (const std::string& name : bed.names)
+    if (name.starts_with("y_at_")) {
+      s.x.push_back((std::stod(name.substr(5)) - c.flow.pipe.x) / D);
+      columns.push_back(&bed.column(name));
+    }
+  for (std::size_t n = 0; n < s.t_lines.size(); ++n) {
+    std::vector<double> line;
+    for (const std::vector<double>* column : columns) line.push_back(((*column)[n] - s.resolved.bed_thickness) / D);
+    s.lines.push_back(std::move(line));
+  }
+  return s;
+}
+
+/// Time-weighted rms of the difference to a reference over [from, to] in its own times; NaN where the run is shorter.
+double depth_rms(const Scour& s, double unit, const std::vector<double>& t, const std::vector<double>& depth,
+                 double from, double to) {
+  if (s.t.back() / unit < to) return std::nan("");
+  constexpr int samples = 1000;
+  double sum = 0;
+  for (int n = 0; n < samples; ++n) {
+    const double at = from + (n + 0.5) * (to - from) / samples;
+    sum += base::square(base::interpolate(s.t, s.depth, at * unit) - base::interpolate(t, depth, at)) / samples;
+  }
+  return std::sqrt(sum);
+}
+
+/// When S first reaches 63.2 % of a plateau [s]; NaN when it never does.
+double rise_time(const Scour& s, double plateau) {
+  for (std::size_t n = 0; n < s.t.size(); ++n)
+    if (s.depth[n] >= (1 - std::exp(-1.0)) * plateau) return s.t[n];
+  return std::nan("");
+}
+
+double mean_between(const Scour& s, double from, double to) {
+  double sum = 0;
+  int n = 0;
+  for (std::size_t k = 0; k < s.t.size(); ++k)
+    if (s.t[k] >= from && s.t[k] <= to) sum += s.depth[k], ++n;
+  return n > 0 ? sum / n : std::nan("");
+}
+
+const std::vector<double>& line_at(const Scour& s, double t) {
+  const auto nearest = std::min_element(s.t_lines.begin(), s.t_lines.end(),
+                                        [t](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
+  return s.lines[nearest - s.t_lines.begin()];
+}
+
+/// Points of a reference table at a time.
+struct Profile {
+  std::vector<double> x, y;
+};
+Profile profile_of_mao(double t) {
+  const io::Table table = io::parse_table(report::mao_profiles, "mao1986_livebed_profiles.csv");
+  const std::vector<double>&at = table.column("t_s"), &x = table.column("x_D"), &y = table.column("y_bed_D");
+  Profile p;
+  for (std::size_t n = 0; n < at.size(); ++n)
+    if (at[n] == t) p.x.push_back(x[n]), p.y.push_back(y[n]);
+  return p;
+}
+
+std::string csv_of_depths(const std::vector<Scour>& all) {
+  std::string text = "# S/D in time; each seed with the commit and the hash of its resolved case\n";
+  for (const Scour& s : all)
+    text += fmt::format("# seed {}: commit {}, case {}\n", s.seed, s.commit, casefile::hash(s.resolved));
+  text += "seed,t_s,S_over_D\n";
+  for (const Scour& s : all)
+    for (std::size_t n = 0; n < s.t.size(); ++n) text += fmt::format("{},{:.4f},{:.5f}\n", s.seed, s.t[n], s.depth[n]);
+  return text;
+}
+
+std::string csv_of_profiles(const std::vector<Scour>& all) {
+  std::string text = "# bed lines over the original bed at every second; x from the pipe's centre\n";
+  for (const Scour& s : all)
+    text += fmt::format("# seed {}: commit {}, case {}\n", s.seed, s.commit, casefile::hash(s.resolved));
+  text += "seed,t_s,x_D,y_bed_D\n";
+  for (const Scour& s : all)
+    for (int t = 0; t <= static_cast<int>(s.t_lines.back() + 1e-6); ++t) {
+      const std::vector<double>& line = line_at(s, t);
+      // Lines are sampled at half a grain; every fifth tells as much.
+      for (std::size_t n = 0; n < s.x.size(); n += 5)
+        text += fmt::format("{},{},{:.4f},{:.4f}\n", s.seed, t, s.x[n], line[n]);
+    }
+  return text;
+}
+
+Result hold_against_mao(const Experiment& e, const Tell& tell) {
+  std::vector<Scour> all;
+  for (unsigned seed = 1; seed <= e.ends.size(); ++seed) {
+    std::vector<std::string> keys = {fmt::format("bed.seed={}", seed)};
+    if (e.ends[seed - 1] > 0) keys.push_back(fmt::format("time.end={}", e.ends[seed - 1]));
+    const casefile::Case c = casefile::read_text(e.text, e.name, keys);
+    const fs::path folder = fs::path(kept_scours) / fmt::format("{}-seed{}", e.name, seed);
+    finish(c, folder, tell);
+    all.push_back(read(c, folder, seed));
+  }
+  const io::Table measured = io::parse_table(report::mao_depth, "mao1986_livebed_depth.csv");
+  const io::Table two_phase = io::parse_table(sedfoam_depth, "sedfoam_kepsilon_livebed_depth.csv");
+  const double scale = all.front().resolved.time_scale / report::mao_time_scale;
+  const double unit = e.scaled ? scale : 1.0;  // of the run's time over the experiment's
+  const char* when = e.scaled ? "t (scaled to T) " : "";
+
+  Result result;
+  const auto add = [&](const Scour& s, const std::string& what, double value, const std::string& unit_of, double low,
+                       double high, const std::string& reference) {
+    Row row{fmt::format("{} seed {}: {}", e.name, s.seed, what), value, unit_of};
+    if (std::isfinite(value)) row.low = low, row.high = high;
+    row.reference = reference;
+    row.setup = fmt::format("case {}, seed {}, {:.1f} s", casefile::hash(s.resolved), s.seed, s.t.back());
+    row.seconds = s.wall, row.commit = s.commit;
+    tell(fmt::format("{}: {:.4g} {}", row.name, value, unit_of));
+    result.rows.push_back(row);
+  };
+  const double none = std::nan("");
+  for (const Scour& s : all) {
+    const std::vector<double>&t = measured.column("t_s"), &depth = measured.column("S_over_D");
+    add(s, fmt::format("{}rms of S/D over 1 to 37 s", when), depth_rms(s, unit, t, depth, 1, 37), "-", 0, 0.07,
+        "Mao (1986), 42 points; a two-phase k-epsilon model: 0.104");
+    add(s, fmt::format("{}rms of S/D over 1 to 12 s", when), depth_rms(s, unit, t, depth, 1, 12), "-", none, none,
+        "Mao (1986)");
+    add(s, fmt::format("{}mean S/D over 30 to 37 s", when), mean_between(s, 30 * unit, 37 * unit), "-",
+        plateau_of_mao - 0.1, plateau_of_mao + 0.1, "Mao (1986): plateau 0.91");
+    add(s, fmt::format("{}time to 63 % of Mao's plateau", when), rise_time(s, plateau_of_mao) / unit, "s", 11.06 * 0.85,
+        11.06 * 1.15, "Mao (1986): 11.06 s");
+    for (double at : report::mao_profile_times) {
+      if (s.t.back() < at * unit) continue;
+      const Profile p = profile_of_mao(at);
+      const auto c = base::compare(s.x, line_at(s, at * unit), p.x, p.y, 0.0);
+      if (!c) continue;
+      add(s, fmt::format("Brier skill score of the bed at {} s against the flat bed", at), c->skill, "-", 0.8, 1,
+          "Mao (1986)");
+      add(s, fmt::format("rms of the bed at {} s", at), c->rms, "D", none, none, "Mao (1986)");
+    }
+    add(s, "wall time", s.wall / 3600, "h", none, none, "");
+  }
+
+  report::Chart chart{{e.scaled ? "t scaled by T [s]" : "t [s]", 0, 40}, {"S/D", 0, 1.1}, {}};
+  chart.curves.push_back({"Mao (1986)", "#000000", measured.column("t_s"), measured.column("S_over_D"), true});
+  chart.curves.push_back(
+      {"two-phase k-epsilon (sedFoam)", "#999999", two_phase.column("t_s"), two_phase.column("S_over_D"), false, true});
+  for (const Scour& s : all) {
+    report::Curve curve{fmt::format("Livebed, seed {}", s.seed), colours[(s.seed - 1) % colours.size()], {}, s.depth};
+    for (double t : s.t) curve.x.push_back(t / unit);
+    chart.curves.push_back(std::move(curve));
+  }
+  result.pictures.push_back({e.name + "-depth.svg", picture(chart)});
+  std::vector<Panel> panels_of;
+  for (double at : report::mao_profile_times) {
+    report::Chart bed{{"x/D", -4, 7}, {"y/D", -1.2, 0.8}, {}};
+    const Profile p = profile_of_mao(at);
+    bed.curves.push_back({"Mao (1986)", "#000000", p.x, p.y, true});
+    for (const Scour& s : all)
+      if (s.t.back() >= at * unit)
+        bed.curves.push_back({fmt::format("Livebed, seed {}", s.seed), colours[(s.seed - 1) % colours.size()], s.x,
+                              line_at(s, at * unit)});
+    panels_of.push_back({fmt::format("{} s", at), bed});
+  }
+  result.pictures.push_back({e.name + "-profiles.svg", panels(panels_of, 1)});
+  result.pictures.push_back({e.name + "-depth.csv", csv_of_depths(all)});
+  result.pictures.push_back({e.name + "-profiles.csv", csv_of_profiles(all)});
+  return result;
+}
+
+}  // namespace
+
+Result mao(const Tell& tell) { return hold_against_mao({"mao", mao_case, {0, 12, 12}}, tell); }
+Result mao_paper(const Tell& tell) { return hold_against_mao({"mao-2mm", mao_paper_case, {0, 0, 0}, true}, tell); }
+
+}  // namespace livebed::validate

@@ -1,0 +1,16 @@
+#pragma once
+#include "validate/result.hpp"
+
+namespace livebed::validate {
+
+/// Where the runs of the experiment are kept, from the working folder: <grain>-seed<k>, each a run folder.
+inline constexpr const char* kept_scours = "runs/validate/mao";
+
+/// The live-bed experiment of Mao (1986) with his own sand, seconds against seconds: depth in time, bed profiles.  Runs
+/// that are not at their end are made or resumed; stopped by a signal, they go on at the next call.  Throws Fault
+/// (stopped by a limit) then, and what a run throws.
+Result mao(const Tell& tell);
+/// The same with grains of 2 mm as the paper has them, preset mbs2d: t/T against t/T.
+Result mao_paper(const Tell& tell);
+
+}  // namespace livebed::validate
