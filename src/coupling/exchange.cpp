@@ -142,7 +142,7 @@ void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double inte
                      uniform_ ? 0.0 : reach_ + materials_.grain_diameter);
 }
 
-void Coupler::feel_eddies(const grains::State& g, const flow::Solver& flow, double dt) {
+void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt) {
   const flow::State& s = flow.state;
   const auto sigma = [](double k) { return std::sqrt(2.0 / 3.0 * k); };
   const double* per_hx = flow.at_c().per_hx.data() + 2;
@@ -152,8 +152,8 @@ void Coupler::feel_eddies(const grains::State& g, const flow::Solver& flow, doub
     vector_loop(1, nx_, [&](int i) { along_x[i] = (sigma(k[i]) - sigma(k[i - 1])) * per_hx[i]; });
     vector_loop(0, nx_, [&](int i) { along_y[i] = (sigma(k[i]) - sigma(below[i])) * per_hy; });
   });
-  at_u_.gather(slope_u_, slope_x_);
-  at_v_.gather(slope_v_, slope_y_);
+  at_u_.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
+  at_v_.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
   eddies_.begin_step();
   over_grains(g.count(), [&](int k) {
     const double time = params_.dispersion_time * eddy_k_[k] / eddy_epsilon_[k];
@@ -183,9 +183,12 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   const bool damped = params_.turbulence == Turbulence::damped, bounded = params_.turbulence != Turbulence::untouched,
              walks = params_.dispersion == Dispersion::random_walk;
   if (damped || walks) at_c_.gather(std::array<const Field*, 2>{&s.k, &s.epsilon}, {&eddy_k_, &eddy_epsilon_});
-  if (walks && !held) feel_eddies(g, flow, dt);
-  at_u_.gather(s.u, g.fluid.u);
-  at_v_.gather(s.v, g.fluid.v);
+  if (walks && !held) {
+    feel_eddies(g, flow, dt);
+  } else {
+    at_u_.gather(s.u, g.fluid.u);
+    at_v_.gather(s.v, g.fluid.v);
+  }
   const double moving = held ? 0.0 : 1.0;
   std::visit(
       [&](const auto& drag) {
@@ -302,8 +305,11 @@ void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) 
     }
   });
   if (voids) {
-    at_u_.gather(slope_u_, slope_x_);
-    at_v_.gather(slope_v_, slope_y_);
+    at_u_.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
+    at_v_.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
+  } else {
+    at_u_.gather(s.u, g.fluid.u);
+    at_v_.gather(s.v, g.fluid.v);
   }
   if (added) {
     at_u_.gather(rate_u_, rate_x_);
@@ -333,8 +339,6 @@ void Coupler::push_grains(const flow::Solver& flow, grains::State& g, double dt)
   std::fill(g.impulse_x.begin(), g.impulse_x.end(), 0.0);
   std::fill(g.impulse_y.begin(), g.impulse_y.end(), 0.0);
   if (params_.mode == Mode::none) return;
-  at_u_.gather(flow.state.u, g.fluid.u);
-  at_v_.gather(flow.state.v, g.fluid.v);
   feel_water(flow, g, dt);
 }
 

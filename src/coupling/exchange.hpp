@@ -97,11 +97,13 @@ private:
   int rows_with_grains(const grains::State& g) const;
   void fill_voids(const grains::State& g, flow::Solver& flow, double interval);
   void add_up_solids(const grains::State& g, base::Field& fraction) const;
-  void feel_eddies(const grains::State& g, const flow::Solver& flow, double dt);
+  /// Velocity of the water and fluctuation at each grain.
+  void feel_eddies(grains::State& g, const flow::Solver& flow, double dt);
   /// load.room <- distance of each cell with grains from the packed bed, ways through grains counting less by what
   /// they fill (Li and Sawamoto 1995, Coastal Eng. Japan 38, 1: dl/dy = kappa (1 - solid/packed)).
   void bound_eddies(const flow::Mesh& m, flow::Load& load);
   void load_eddies(const grains::State& g, flow::Load& load);
+  /// Velocity of the water at each grain, and its forces besides drag.
   void feel_water(const flow::Solver& flow, grains::State& g, double dt);
   double response_time(const grains::State& g, int k) const;
 

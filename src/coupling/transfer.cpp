@@ -52,11 +52,17 @@ Transfer::Transfer(const flow::Staggering& at, const base::Field& aperture, int 
 
 void Transfer::locate(const grains::State& g) {
   const int n = g.count(), bins = static_cast<int>(bin_first_.size()) - 1;
+  const int known = static_cast<int>(footprint_.size());
   footprint_.resize(n);
+  x_.resize(n), y_.resize(n);
   weight_x_.resize(static_cast<std::size_t>(n) * widest_);
   weight_y_.resize(static_cast<std::size_t>(n) * widest_);
   base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int k) {
-    for (int m = k * grains_a_block; m < std::min(n, (k + 1) * grains_a_block); ++m) locate_one(m, g.x[m], g.y[m]);
+    for (int m = k * grains_a_block; m < std::min(n, (k + 1) * grains_a_block); ++m) {
+      if (m < known && x_[m] == g.x[m] && y_[m] == g.y[m]) continue;  // asleep, or not moved since
+      locate_one(m, g.x[m], g.y[m]);
+      x_[m] = g.x[m], y_[m] = g.y[m];
+    }
   });
   const double low = edges_x_.front(), scale = bins / (edges_x_.back() - low);
   bin_of_.resize(n);

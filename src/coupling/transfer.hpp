@@ -94,6 +94,7 @@ private:
   std::vector<double> edges_x_, edges_y_;  // of the volumes that may receive
   base::Field open_;                       // open fraction of each
   std::vector<Footprint> footprint_;
+  std::vector<double> x_, y_;                // where each was located
   std::vector<double> weight_x_, weight_y_;  // widest_ entries a grain; those along y hold the normalisation
   std::vector<int> bin_first_, order_, bin_of_;
 };

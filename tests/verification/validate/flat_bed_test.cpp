@@ -1,0 +1,61 @@
+#include "validate/flat_bed.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace livebed::validate {
+namespace {
+
+FlatBedSetup small() {
+  FlatBedSetup s;
+  s.theta = 0.4, s.length = 40, s.bed = 6, s.depth = 20;
+  s.spin_up = 2, s.begin = 0.3, s.end = 0.6;
+  return s;
+}
+
+TEST(flat_bed, is_moved_by_the_current_asked_for) {
+  const FlatBedSetup setup = small();
+  const FlatBedRun run = run_flat_bed(setup);
+  EXPECT_NEAR(run.theta / setup.theta, 1, 0.25);  // of 0.3 s; the speed follows within seconds
+  // Within a factor of three of Meyer-Peter and Mueller even so.
+  const double ratio = run.einstein(setup) / meyer_peter_mueller(run.theta);
+  EXPECT_GT(ratio, 1 / 3.0);
+  EXPECT_LT(ratio, 3.0);
+  // Grains and water: packed below and still, none above and fast, grains slower than water where they move.
+  ASSERT_EQ(run.y.size(), run.solid.size());
+  EXPECT_NEAR(run.level / setup.diameter, setup.bed, 0.5);
+  EXPECT_NEAR(run.solid[4], 0.55, 0.06);
+  EXPECT_NEAR(run.u[4], 0, 0.02);
+  EXPECT_EQ(run.solid.back(), 0);
+  EXPECT_GT(run.u.back(), 0.6);
+  const auto moving = std::max_element(run.grain_u.begin(), run.grain_u.end()) - run.grain_u.begin();
+  EXPECT_GT(run.grain_u[moving], 0.1);
+  EXPECT_LT(run.grain_u[moving], run.u[moving]);
+}
+
+TEST(flat_bed, is_kept_for_its_setup) {
+  const std::string folder = testing::TempDir() + "kept_flat_beds";
+  std::filesystem::remove_all(folder);
+  FlatBedSetup setup = small();
+  setup.theta = 0.05, setup.spin_up = 0.02, setup.begin = 0, setup.end = 0.02;
+  int made = 0, kept = 0;
+  const Tell tell = [&](const std::string& line) { ++(line.find("kept") == std::string::npos ? made : kept); };
+  const FlatBedRun first = kept_flat_bed(setup, folder, tell), again = kept_flat_bed(setup, folder, tell);
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(kept, 1);
+  EXPECT_EQ(first.flux, again.flux);
+  EXPECT_EQ(first.solid, again.solid);
+  setup.seed = 2;
+  EXPECT_NE(kept_flat_bed(setup, folder, tell).flux, first.flux);
+  EXPECT_EQ(made, 2);
+}
+
+TEST(transport_formulas, have_their_known_values) {
+  EXPECT_NEAR(meyer_peter_mueller(0.33), 1.2043, 1e-3);
+  EXPECT_EQ(meyer_peter_mueller(0.04), 0);
+  EXPECT_NEAR(camenen_larson(0.33, 0.045), 12 * 0.18957 * 0.54139, 1e-3);
+}
+
+}  // namespace
+}  // namespace livebed::validate
