@@ -228,10 +228,15 @@ Result sheet_flow(const Tell& tell) {
     return c;
   };
   const report::Axis height{"height over solid fraction 0.25 [d]", -4, 32};
-  report::Chart speeds{{"speed [m/s]"}, height, {}}, fractions{{"solid fraction [-]"}, height, {}};
+  report::Chart speeds;
+  speeds.x.name = "speed [m/s]";
+  speeds.y = height;
   speeds.curves = {curve("measured", "#000000", u, z_u, there, true),
                    curve("water", "#1f77b4", run.u, run.y, here, false),
                    curve("grains", "#d62728", run.grain_u, run.y, here, false)};
+  report::Chart fractions;
+  fractions.x.name = "solid fraction [-]";
+  fractions.y = height;
   fractions.curves = {curve("measured", "#000000", phi, z_phi, there, true),
                       curve("Livebed", "#1f77b4", run.solid, run.y, here, false)};
   result.pictures.push_back({"sheet_flow_speed.svg", picture(speeds)});
