@@ -4,7 +4,7 @@ import { numbers } from './pack.js';
 
 /// What can be drawn: unit, colours, whether zero is the middle of the scale.
 export const quantities = {
-  speed: { name: 'speed of the water', unit: 'm/s', map: 'viridis', of: (f) => f.u.map((u, n) => Math.sqrt(u * u + f.v[n] * f.v[n])) },
+  speed: { name: 'speed of the water', unit: 'm/s', map: 'viridis', of: speed },
   vorticity: { name: 'vorticity', unit: '1/s', map: 'balance', balanced: true, of: vorticity },
   pressure: { name: 'pressure', unit: 'Pa', map: 'balance', balanced: true, of: (f) => f.p && centred(f.p) },
   solid: { name: 'solid fraction', unit: '-', map: 'deep', from: 0, to: 0.65, of: (f) => f.solid },
@@ -15,6 +15,12 @@ export function opened(pack) {
   const frame = { ...pack.head, x: pack.x.raw, y: pack.y.raw, pack };
   for (const name of ['u', 'v', 'p', 'solid', 'open']) if (pack[name]) frame[name] = numbers(pack[name]);
   return frame;
+}
+
+function speed({ u, v }) {
+  const out = new Float32Array(u.length);
+  for (let n = 0; n < u.length; ++n) out[n] = Math.sqrt(u[n] * u[n] + v[n] * v[n]);
+  return out;
 }
 
 const centres = (faces) => Float32Array.from({ length: faces.length - 1 }, (_, n) => 0.5 * (faces[n] + faces[n + 1]));
@@ -44,7 +50,7 @@ function centred(p) {
 export function scaleOf(values, quantity) {
   if (quantity.to !== undefined) return [quantity.from, quantity.to];
   const step = Math.max(1, Math.floor(values.length / 20000));
-  const sample = values.filter((_, n) => n % step === 0).sort();
+  const sample = Float32Array.from({ length: Math.floor(values.length / step) }, (_, n) => values[n * step]).sort();
   const low = sample[Math.floor(0.005 * sample.length)], high = sample[Math.ceil(0.995 * sample.length) - 1];
   if (!quantity.balanced) return [0, Math.max(high, 1e-6)];
   const end = Math.max(-low, high, 1e-6);

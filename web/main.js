@@ -121,11 +121,16 @@ async function report() {
   await Promise.all([run.readTables(), run.readAnalysis(), run.readMotion()]);
   page.refresh();
   await page.view.update();
+  await showStages(run, page.pictures);
+}
+
+/// Pictures of the stages that the run has come to.
+async function showStages(run, holder) {
   const { T_s, frames, measured } = run.head, last = frames.at(-1)?.t_s;
   if (last === undefined) return;
   // The stages of the paper's Fig. 11 in t/T, or five moments; and where the run is now.
   const wanted = measured ? [0, 11, 18, 25, 50].map((t) => (t / measured.T_s) * T_s).filter((t) => t < last) : [0, 0.05, 0.15, 0.3, 0.6].map((s) => s * last);
-  await stagePictures(run, [...wanted, last], page.pictures);
+  await stagePictures(run, [...wanted, last], holder);
 }
 
 async function watch() {
@@ -150,6 +155,9 @@ async function watch() {
       live.show(run.head.status, run.head.summary, run.series.time_s?.at(-1));
       if (fresh || !page.shown) page.refresh();
       page.shown = true;
+      const ended = !run.head.status.alive;
+      if (ended && !page.pictured) await showStages(run, page.pictures);
+      page.pictured = ended;
     } catch (error) {
       if (error instanceof TypeError) live.lost();  // what fetch throws when nobody answers
       else live.trouble(error.message);

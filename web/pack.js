@@ -20,5 +20,7 @@ export function unpack(buffer) {
 export function numbers({ raw, from, to }) {
   if (raw instanceof Float32Array) return raw;
   const scale = (to - from) / (2 ** (8 * raw.BYTES_PER_ELEMENT) - 1);
-  return Float32Array.from(raw, (n) => from + n * scale);
+  const values = new Float32Array(raw.length);  // a loop: Float32Array.from takes ten times as long
+  for (let n = 0; n < raw.length; ++n) values[n] = from + raw[n] * scale;
+  return values;
 }

@@ -41,7 +41,8 @@ export class Painter {
   /// The frame (field.js) with the values to colour its cells by, between `from` and `to`.
   load(frame, values, from, to, map) {
     const scale = 255 / (to - from);
-    this.levels = Float32Array.from(values, (v) => Math.min(255, Math.max(0, (v - from) * scale)));
+    this.levels = new Float32Array(values.length);
+    for (let n = 0; n < values.length; ++n) this.levels[n] = Math.min(255, Math.max(0, (values[n] - from) * scale));
     this.colours = pixelsOf(map);
     this.frame = frame;
   }

@@ -56,7 +56,7 @@ const svgOpen = (w, h) => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 
 
 export class View {
   #queued = false;
-  #speeds = new Map();
+  #scales = new Map();
   #pointers = new Map();
 
   constructor(run) {
@@ -119,9 +119,9 @@ export class View {
   #load() {
     const chosen = quantities[this.quantity], values = chosen.of(this.frame);
     if (!values) return this.choose('speed');
-    const [from, to] = scaleOf(values, chosen), known = this.#speeds.get(this.quantity) ?? [from, to];
+    const [from, to] = scaleOf(values, chosen), known = this.#scales.get(this.quantity) ?? [from, to];
     const scale = [Math.min(from, known[0]), Math.max(to, known[1])];
-    this.#speeds.set(this.quantity, scale);
+    this.#scales.set(this.quantity, scale);
     this.painter.load(this.frame, values, ...scale, chosen.map);
     const { grain_speed: speed } = this.frame.pack;
     this.grainEnd = Math.max(this.grainEnd ?? 0.01, speed ? 0.5 * speed.to : 0);

@@ -21,9 +21,12 @@ export function smallRun(out, end, ...more) {
 
 export const livebed = (...words) => execFileSync(program, words, { cwd: folder, encoding: 'utf8' });
 
+const children = new Set();
+
 /// Starts the program; resolves with the process and the address it tells.
 export function serving(...words) {
   const child = spawn(program, words, { cwd: folder, stdio: ['ignore', 'pipe', 'pipe'] });
+  children.add(child);
   child.ended = new Promise((done) => child.on('exit', (code, signal) => done(code ?? signal)));
   return new Promise((found, failed) => {
     let told = '';
@@ -65,6 +68,7 @@ export async function open(address, { width = 1280, height = 900, scheme = 'ligh
   browser ??= await chromium.launch({ executablePath: '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage'] });
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme });
+  page.setDefaultTimeout(60000);
   page.complaints = [];
   page.requests = [];
   page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) page.complaints.push(message.text()); });
@@ -73,7 +77,11 @@ export async function open(address, { width = 1280, height = 900, scheme = 'ligh
   await page.goto(address);
   return page;
 }
-export const close = () => browser?.close();
+/// Ends the browser and whatever a failed test has left running.
+export async function close() {
+  for (const child of children) child.kill('SIGKILL');
+  await browser?.close();
+}
 
 /// Waits until a function of the page returns something true.
 export const until = (page, holds, argument) => page.waitForFunction(holds, argument, { timeout: 60000 });

@@ -16,10 +16,7 @@ before(async () => {
   ({ child, address } = await serving(...smallRun('live', 1000, '--watch', '--port', String(port))));
   page = await open(address);
 });
-after(async () => {
-  child.kill('SIGTERM');
-  await close();
-});
+after(close);
 
 test('opens while the bed is packed and follows into digging', async () => {
   await pill(page, 'digging');
@@ -105,6 +102,7 @@ test('stops the run, outlives it and a restart of the server', async () => {
   await pill(other, 'ended: stopped by a signal');  // it has loaded itself anew, with the new token
   await changes(other, 'the slider', () => other.locator('input[type=range]').fill('0'));
   third.child.kill('SIGTERM');
-  assert.deepEqual(other.complaints.filter((text) => !text.includes('ERR_CONNECTION_REFUSED')), []);
+  // What a browser says when nobody answers is not the page's fault.
+  assert.deepEqual(other.complaints.filter((text) => !/net::ERR_(CONNECTION|EMPTY|SOCKET)/.test(text)), []);
   await other.close();
 });

@@ -14,6 +14,7 @@ namespace livebed {
 /// A run folder as `livebed run` leaves it, of a hole that grows as S = 0.6 D (1 - exp(-t/T)): made of formulas.
 struct SyntheticRun {
   double D = 0.05, T = 0.88, level = 0.048, pipe_x = 0.2, length = 0.5, height = 0.2;
+  double d = 0.002;
   double last_time = 7.1;
   bool finished = true, with_pipe = true;
   int snapshots = 29;
@@ -35,8 +36,10 @@ struct SyntheticRun {
     io::make_folder(folder / "grains");
     io::write_atomically(folder / "case.resolved.toml",
                          "[case]\ntitle = \"A hole made of <formulas>\"\n\n[current]\ntheta = 0.33\n\n[bed]\nlevel = "
-                         "0.048\n\n[grains]\ndiameter = 0.002\n\n"
-                         "[derived]\ncurrent.mean_speed = 1.4\ntime.scale = " +
+                         "0.048\n\n[grains]\ndiameter = " +
+                             std::to_string(d) +
+                             "\n\n"
+                             "[derived]\ncurrent.mean_speed = 1.4\ntime.scale = " +
                              std::to_string(with_pipe ? T : 0.0) + "  # s\n");
     io::write_atomically(folder / "log.txt", "started\ngrains released\n");
     if (with_pipe) io::write_vtp(folder / "pipe.vtp", io::circle_line(pipe_x, pipe_y(), D));
@@ -152,12 +155,12 @@ private:
   }
 
   io::Points sand(double t) const {
-    const double d = 0.002, row = d * std::sqrt(3.0) / 2;
+    const double row = d * std::sqrt(3.0) / 2;
     io::Points points;
     points.time = t;
     points.data = {{"diameter", 1, io::Store::float32, {}}, {"velocity", 3, io::Store::float32, {}}};
-    for (int j = 0; j < 40; ++j)
-      for (int i = 0; i < 250; ++i) {
+    for (int j = 0; j * row < 1.5 * level; ++j)
+      for (int i = 0; i < length / d - 0.5; ++i) {
         const double x = (i + 0.25 + 0.5 * (j % 2)) * d, y = (j + 0.5) * row, below = bed(x, t) - y;
         if (below < 0) continue;
         points.x.push_back(x);
