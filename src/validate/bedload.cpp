@@ -224,7 +224,8 @@ Result sheet_flow(const Tell& tell) {
                          const std::vector<double>& z, double origin, bool dots) {
     report::Curve c{name, colour, {}, {}, dots};
     for (std::size_t n = 0; n < z.size(); ++n)
-      if (z[n] > origin - 4 * d && z[n] < origin + 32 * d && f[n] != 0) c.x.push_back(f[n]), c.y.push_back((z[n] - origin) / d);
+      if (z[n] > origin - 4 * d && z[n] < origin + 32 * d && f[n] != 0)
+        c.x.push_back(f[n]), c.y.push_back((z[n] - origin) / d);
     return c;
   };
   const report::Axis height{"height over solid fraction 0.25 [d]", -4, 32};
