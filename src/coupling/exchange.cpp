@@ -144,21 +144,23 @@ void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double inte
 
 void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt) {
   const flow::State& s = flow.state;
-  const auto sigma = [](double k) { return std::sqrt(2.0 / 3.0 * k); };
   const double* per_hx = flow.at_c().per_hx.data() + 2;
   for_each_item(0, top_, [&](int j) {
     const double *k = s.k.row(j), *below = s.k.row(std::max(j - 1, 0)), per_hy = flow.at_c().per_hy[j + 2];
     double *along_x = slope_u_.row(j), *along_y = slope_v_.row(j);
-    vector_loop(1, nx_, [&](int i) { along_x[i] = (sigma(k[i]) - sigma(k[i - 1])) * per_hx[i]; });
-    vector_loop(0, nx_, [&](int i) { along_y[i] = (sigma(k[i]) - sigma(below[i])) * per_hy; });
+    vector_loop(1, nx_, [&](int i) { along_x[i] = (std::sqrt(k[i]) - std::sqrt(k[i - 1])) * per_hx[i]; });
+    vector_loop(0, nx_, [&](int i) { along_y[i] = (std::sqrt(k[i]) - std::sqrt(below[i])) * per_hy; });
   });
   at_u_.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
   at_v_.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
   eddies_.begin_step();
   over_grains(g.count(), [&](int k) {
-    const double time = params_.dispersion_time * eddy_k_[k] / eddy_epsilon_[k];
+    const base::Vec2 water{g.fluid.u[k], g.fluid.v[k]};
+    const double speed = base::norm(water),
+                 time = Eddies::life_time(params_.dispersion_time, eddy_k_[k], eddy_epsilon_[k], viscosity_);
+    const base::Vec2 stream = speed > 0 ? (1.0 / speed) * water : base::Vec2{1, 0};
     const base::Vec2 felt =
-        eddies_.advance(g.id[k], dt, {sigma(eddy_k_[k]), slope_x_[k], slope_y_[k], time, response_time(g, k) / time});
+        eddies_.advance(g.id[k], dt, {stream, eddy_k_[k], {slope_x_[k], slope_y_[k]}, time, response_time(g, k)});
     eddy_u_[k] = felt.x, eddy_v_[k] = felt.y;
   });
 }
@@ -347,33 +349,36 @@ void Coupler::collect(const grains::State& g, const flow::Solver& flow, double d
   if (params_.mode != Mode::two_way) return;
   locate(g);
   const double relative = params_.added_mass == AddedMass::relative ? materials_.added_mass * density_ : 0.0;
+  const bool implicit = params_.exchange == Exchange::implicit;
   const auto one = [&](Transfer& to, const flow::Staggering& at, double base::Vec2::*along,
-                       const grains::Array& impulse, const grains::Array& speed, const Field& velocity,
-                       const Field& beta, const Field& force, Field& owed) {
-    // owed <- owed - taken by the flow - given to the grains
-    double taken = 0;
+                       const grains::Array& impulse, const grains::Array& speed, const grains::Array& felt,
+                       const Field& velocity, const Field& beta, const Field& force, Field& owed) {
+    double taken = 0, given = 0;
     for (int j = 0; j < flow.state.load.top; ++j) {
       const Volumes v(at, j, slab_);
       const double *u = velocity.row(j), *b = beta.row(j), *f = force.row(j);
-      double* o = owed.row(j);
       taken += base::vector_sum(0, nx_, [&](int i) { return dt * (f[i] - b[i] * u[i]) * v[i]; });
-      vector_loop(0, nx_, [&](int i) { o[i] -= dt * (f[i] - b[i] * u[i]) * v[i]; });
     }
     const auto received = [&](int k) {
       const Before& before = before_[g.id[k]];
       return impulse[k] - dt * (before.given.*along) -
              relative * base::sphere_volume(g.diameter[k]) * (speed[k] - before.velocity.*along);
     };
-    to.scatter(std::array{&owed}, [&](int k) { return std::array{-received(k)}; });
-    double given = 0;
+    // The flow has taken beta (U - u_p) where each part of a grain is, with the water that is there; owed is only what
+    // the grain's own motion during the step made of it.
+    const auto anticipated = [&](int k) {
+      return implicit ? dt * g.fluid.beta[k] * (felt[k] - before_[g.id[k]].velocity.*along) : 0.0;
+    };
+    owed.fill(0.0);
+    to.scatter(std::array{&owed}, [&](int k) { return std::array{anticipated(k) - received(k)}; });
     for (int k = 0; k < g.count(); ++k) given += received(k);
     ledger_.to_flow.*along += taken;
     ledger_.to_grains.*along += given;
     ledger_.carried.*along = total(owed);
   };
   const flow::State& s = flow.state;
-  one(at_u_, flow.at_u(), &base::Vec2::x, g.impulse_x, g.u, s.u, s.load.beta_u, s.load.force_u, owed_u_);
-  one(at_v_, flow.at_v(), &base::Vec2::y, g.impulse_y, g.v, s.v, s.load.beta_v, s.load.force_v, owed_v_);
+  one(at_u_, flow.at_u(), &base::Vec2::x, g.impulse_x, g.u, g.fluid.u, s.u, s.load.beta_u, s.load.force_u, owed_u_);
+  one(at_v_, flow.at_v(), &base::Vec2::y, g.impulse_y, g.v, g.fluid.v, s.v, s.load.beta_v, s.load.force_v, owed_v_);
 }
 
 void Coupler::add_up_solids(const grains::State& g, Field& fraction) const {
