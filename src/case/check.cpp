@@ -243,11 +243,11 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
                 "current.roughness = {} m is larger than the water is deep, {:.4g} m", current.roughness,
                 mesh.height - bed);
   keys({"coupling.kernel", "grains.diameter", "mesh.cell_x", "mesh.cell_y"})
-      .fault_if(
-          c.coupling.mode != coupling::Mode::none && c.coupling.kernel * d < 0.25 * std::max(mesh.cell_x, mesh.cell_y),
-          "coupling.kernel = {} reaches {:.4g} m, less than a quarter of a cell of {} m: give at least {:.3g}",
-          c.coupling.kernel, c.coupling.kernel * d, std::max(mesh.cell_x, mesh.cell_y),
-          0.25 * std::max(mesh.cell_x, mesh.cell_y) / d);
+      .fault_if(c.coupling.mode != coupling::Mode::none &&
+                    c.coupling.kernel * d < least_kernel_in_cells * std::max(mesh.cell_x, mesh.cell_y),
+                "coupling.kernel = {} reaches {:.4g} m, less than {} of a cell of {} m: give at least {:.3g}",
+                c.coupling.kernel, c.coupling.kernel * d, least_kernel_in_cells, std::max(mesh.cell_x, mesh.cell_y),
+                least_kernel_in_cells * std::max(mesh.cell_x, mesh.cell_y) / d);
 
   keys({"coupling.kernel", "grains.diameter", "mesh.cell_x", "mesh.cell_y"})
       .fault_if(c.coupling.mode != coupling::Mode::none &&

@@ -21,6 +21,7 @@ inline constexpr int most_grains = 100'000'000;
 /// Fewer cells than this across the pipe cannot turn the flow round it.
 inline constexpr double least_cells_across_pipe = 8;
 /// More cells than this inside the half-width of the transfer kernel cost more than they tell.
+inline constexpr double least_kernel_in_cells = 0.125;  ///< a narrower one leaves grain and cell to chance [-]
 inline constexpr double most_cells_in_kernel = 20;
 /// A larger estimate of the static overlap at the bottom of the bed over d earns a note: the bed would be too soft.
 inline constexpr double overlap_to_note = 0.01;

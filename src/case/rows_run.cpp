@@ -66,6 +66,9 @@ void add_coupling(std::vector<Row>& s) {
                   {{"none", coupling::Dispersion::none}, {"random_walk", coupling::Dispersion::random_walk}})
                   .says("do grains feel a fluctuation of the modelled k?")
                   .from("none"));
+  s.push_back(real("coupling.dispersion_energy", "-", coupling(&C::dispersion_energy))
+                  .above(0, 10)
+                  .says("energy of that fluctuation over the modelled k; right above a bed more than closures say"));
   s.push_back(real("coupling.dispersion_time", "-", coupling(&C::dispersion_time))
                   .above(0, 10)
                   .says("time scale of that fluctuation over k/epsilon"));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/loops.hpp"
 #include "base/math.hpp"
@@ -46,12 +47,13 @@ void level(double* values, int first, int last) {
   std::fill(values + first, values + last, mean);
 }
 
-/// Calls body(k) for every grain, on all threads.
+/// Calls body(k) for every grain of a list, on all threads.
 template <class Body>
-void over_grains(int count, Body&& body) {
+void over_grains(const std::vector<int>& which, Body&& body) {
   constexpr int block = 1024;
+  const int count = static_cast<int>(which.size());
   for_each_item(0, (count + block - 1) / block, [&](int b) {
-    for (int k = b * block; k < std::min(count, (b + 1) * block); ++k) body(k);
+    for (int m = b * block; m < std::min(count, (b + 1) * block); ++m) body(which[m]);
   });
 }
 
@@ -83,7 +85,7 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
       viscosity_(materials.viscosity),
       owed_u_(nx_, ny_),
       owed_v_(nx_, ny_),
-      before_(materials.grains) {
+      still_(materials.grains, 0) {
   const flow::Mesh& m = flow.mesh();
   const flow::Staggering centres = flow::Staggering::centres(m);
   at_u_ = Transfer(flow::Staggering::west_faces(m), m.aperture_x, 1, nx_ - 1, reach_);
@@ -91,20 +93,64 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
   at_c_ = Transfer(centres, m.volume, 0, nx_ - 1, reach_);
   if (params.dispersion == Dispersion::random_walk) eddies_ = Eddies(materials.grains, materials.seed);
   for (grains::Array* a :
-       {&eddy_k_, &eddy_epsilon_, &eddy_u_, &eddy_v_, &slope_x_, &slope_y_, &rate_x_, &rate_y_, &vorticity_})
+       {&eddy_k_, &eddy_epsilon_, &eddy_u_, &eddy_v_, &slope_x_, &slope_y_, &rate_x_, &rate_y_, &vorticity_, &given_x_,
+        &given_y_, &before_u_, &before_v_, &still_x_, &still_y_, &still_beta_, &still_volume_, &still_damps_})
     a->assign(materials.grains, 0.0);
   voidage_.assign(materials.grains, 1.0);
   volume_c_ = Field(nx_, ny_);
   for (int j = 0; j < ny_; ++j)
     for (int i = 0; i < nx_; ++i) volume_c_(i, j) = slab_ * centres.volume(i, j);
-  for (Field* f : {&voids_, &slope_u_, &slope_v_, &rate_u_, &rate_v_, &curl_}) *f = Field(nx_, ny_);
+  for (Field* f : {&voids_, &slope_u_, &slope_v_, &rate_u_, &rate_v_, &curl_, &still_solid_, &still_beta_u_,
+                   &still_beta_v_, &still_damping_})
+    *f = Field(nx_, ny_);
 }
 
 void Coupler::locate(const grains::State& g) {
-  at_u_.locate(g);
-  at_v_.locate(g);
-  at_c_.locate(g);
+  moving_.clear();
+  for (int k = 0; k < g.count(); ++k)
+    if (still_[g.id[k]] == 0) moving_.push_back(k);
+  for (Transfer* at : {&at_u_, &at_v_, &at_c_}) at->locate(g.x, g.y, moving_);
   located_ = true;
+}
+
+void Coupler::add_still(const std::vector<int>& ids, double sign) {
+  if (ids.empty()) return;
+  for (Transfer* at : {&at_u_, &at_v_, &at_c_}) at->locate(still_x_, still_y_, ids);
+  located_ = false;
+  const auto beta = [&](int id) { return std::array{sign * still_beta_[id]}; };
+  at_u_.scatter(std::array{&still_beta_u_}, beta);
+  at_v_.scatter(std::array{&still_beta_v_}, beta);
+  at_c_.scatter(std::array{&still_solid_, &still_damping_}, [&](int id) {
+    return std::array{sign * still_volume_[id], sign * still_damps_[id]};
+  });
+}
+
+void Coupler::wake(const grains::State& g) {
+  if (g.sleep.asleep.empty()) return;
+  std::vector<int> woken;
+  for (int k = 0; k < g.count(); ++k)
+    if (still_[g.id[k]] != 0 && g.sleep.asleep[k] == 0) woken.push_back(g.id[k]), still_[g.id[k]] = 0;
+  add_still(woken, -1);
+}
+
+void Coupler::settle(const grains::State& g) {
+  if (g.sleep.asleep.empty()) return;
+  const std::int64_t place = ++steps_ % steps_a_round;
+  if (place == 0) {
+    std::fill(still_.begin(), still_.end(), 0);
+    for (Field* sum : {&still_solid_, &still_beta_u_, &still_beta_v_, &still_damping_}) sum->fill(0.0);
+    located_ = false;
+  } else if (place == 1) {
+    std::vector<int> asleep;
+    for (int k = 0; k < g.count(); ++k) {
+      if (g.sleep.asleep[k] == 0) continue;
+      const int id = g.id[k];
+      still_[id] = 1, asleep.push_back(id);
+      still_x_[id] = g.x[k], still_y_[id] = g.y[k];
+      still_beta_[id] = g.fluid.beta[k], still_volume_[id] = base::sphere_volume(g.diameter[k]);
+    }
+    add_still(asleep, 1);
+  }
 }
 
 int Coupler::rows_with_grains(const grains::State& g) const {
@@ -130,7 +176,9 @@ void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double inte
   if (params_.voidage == Voidage::off && params_.drag == Drag::paper && params_.turbulence == Turbulence::untouched)
     return;
   voids_filled_ = true;
-  add_up_solids(g, voids_);
+  voids_ = still_solid_;
+  add_volumes(g, voids_);
+  to_fractions(voids_);
   for_each_item(0, ny_, [&](int j) {
     double* e = voids_.row(j);
     if (uniform_) level(e, 0, nx_);
@@ -154,13 +202,15 @@ void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt)
   at_u_.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
   at_v_.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
   eddies_.begin_step();
-  over_grains(g.count(), [&](int k) {
+  const double energy = params_.dispersion_energy, size = std::sqrt(energy);
+  over_grains(moving_, [&](int k) {
     const base::Vec2 water{g.fluid.u[k], g.fluid.v[k]};
     const double speed = base::norm(water),
                  time = Eddies::life_time(params_.dispersion_time, eddy_k_[k], eddy_epsilon_[k], viscosity_);
     const base::Vec2 stream = speed > 0 ? (1.0 / speed) * water : base::Vec2{1, 0};
-    const base::Vec2 felt =
-        eddies_.advance(g.id[k], dt, {stream, eddy_k_[k], {slope_x_[k], slope_y_[k]}, time, response_time(g, k)});
+    const base::Vec2 felt = eddies_.advance(
+        g.id[k], dt,
+        {stream, energy * eddy_k_[k], {size * slope_x_[k], size * slope_y_[k]}, time, response_time(g, k)});
     eddy_u_[k] = felt.x, eddy_v_[k] = felt.y;
   });
 }
@@ -170,7 +220,12 @@ void Coupler::load_eddies(const grains::State& g, flow::Load& load) {
   at_c_.scatter(std::array{&load.damping}, [&](int k) {
     const double followed =
         share_followed(params_.turbulence_inertia, response_time(g, k), eddy_k_[k] / eddy_epsilon_[k]);
-    return std::array{2.0 * g.fluid.beta[k] * (1.0 - followed)};
+    return std::array{still_damps_[g.id[k]] = 2.0 * g.fluid.beta[k] * (1.0 - followed)};
+  });
+  for_each_item(0, load.top, [&](int j) {
+    double* rate = load.damping.row(j);
+    const double* still = still_damping_.row(j);
+    vector_loop(0, nx_, [&](int i) { rate[i] += still[i]; });
   });
 }
 
@@ -194,7 +249,7 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   const double moving = held ? 0.0 : 1.0;
   std::visit(
       [&](const auto& drag) {
-        over_grains(g.count(), [&](int k) {
+        over_grains(moving_, [&](int k) {
           const double slip_x = g.fluid.u[k] + eddy_u_[k] - moving * g.u[k],
                        slip_y = g.fluid.v[k] + eddy_v_[k] - moving * g.v[k];
           g.fluid.beta[k] =
@@ -216,22 +271,23 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
       return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * (g.v[k] - eddy_v_[k])};
     });
   }
-  const auto per_volume = [&](const flow::Staggering& at, const Field& owed, Field& beta, Field& force) {
+  const auto per_volume = [&](const flow::Staggering& at, const Field& owed, const Field& still, Field& beta,
+                              Field& force) {
     for_each_item(0, load.top, [&](int j) {
       const Volumes v(at, j, slab_);
-      const double* o = owed.row(j);
+      const double *o = owed.row(j), *at_rest = still.row(j);
       double *b = beta.row(j), *f = force.row(j);
       vector_loop(0, nx_, [&](int i) {
         const double inverse = v[i] > 0 ? 1.0 / v[i] : 0.0;
-        b[i] *= inverse;
+        b[i] = (b[i] + at_rest[i]) * inverse;
         f[i] = (f[i] + o[i] / dt) * inverse;
       });
       if (uniform_) level(b, at.i0, nx_), level(f, at.i0, nx_);
       b[nx_] = b[nx_ - 1], f[nx_] = f[nx_ - 1];  // the outlet face feels what its neighbour feels
     });
   };
-  per_volume(flow.at_u(), owed_u_, load.beta_u, load.force_u);
-  per_volume(flow.at_v(), owed_v_, load.beta_v, load.force_v);
+  per_volume(flow.at_u(), owed_u_, still_beta_u_, load.beta_u, load.force_u);
+  per_volume(flow.at_v(), owed_v_, still_beta_v_, load.beta_v, load.force_v);
   if (!bounded) return;
   bound_eddies(flow.mesh(), load);
   if (damped) load_eddies(g, load);
@@ -319,12 +375,12 @@ void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) 
   }
   if (lift) at_c_.gather(curl_, vorticity_);
 
-  over_grains(g.count(), [&](int k) {
+  over_grains(moving_, [&](int k) {
     const double volume = base::sphere_volume(g.diameter[k]);
-    Before& before = before_[g.id[k]];
-    before.velocity = {g.u[k], g.v[k]};
-    before.given = voids ? base::Vec2{-volume * slope_x_[k], -volume * slope_y_[k]} : base::Vec2{};
-    base::Vec2 force = before.given;
+    const int id = g.id[k];
+    base::Vec2 force = voids ? base::Vec2{-volume * slope_x_[k], -volume * slope_y_[k]} : base::Vec2{};
+    given_x_[id] = force.x, given_y_[id] = force.y;
+    before_u_[id] = g.u[k], before_v_[id] = g.v[k];
     if (added) force = force + (materials_.added_mass * density_ * volume) * base::Vec2{rate_x_[k], rate_y_[k]};
     if (lift) {
       const base::Vec2 slip{g.fluid.u[k] - g.u[k], g.fluid.v[k] - g.v[k]};
@@ -347,53 +403,71 @@ void Coupler::push_grains(const flow::Solver& flow, grains::State& g, double dt)
 void Coupler::collect(const grains::State& g, const flow::Solver& flow, double dt) {
   located_ = voids_filled_ = false;  // the grains have moved
   if (params_.mode != Mode::two_way) return;
+  const flow::State& s = flow.state;
+  ledger_.to_grains.x += given_to_still(still_beta_u_, s.u, dt);
+  ledger_.to_grains.y += given_to_still(still_beta_v_, s.v, dt);
+  const std::vector<std::int32_t> was_still = still_;
+  wake(g);
   locate(g);
   const double relative = params_.added_mass == AddedMass::relative ? materials_.added_mass * density_ : 0.0;
   const bool implicit = params_.exchange == Exchange::implicit;
-  const auto one = [&](Transfer& to, const flow::Staggering& at, double base::Vec2::*along,
-                       const grains::Array& impulse, const grains::Array& speed, const grains::Array& felt,
-                       const Field& velocity, const Field& beta, const Field& force, Field& owed) {
-    double taken = 0, given = 0;
-    for (int j = 0; j < flow.state.load.top; ++j) {
+  const auto one = [&](Transfer& to, const flow::Staggering& at, const grains::Array& impulse,
+                       const grains::Array& speed, const grains::Array& felt, const grains::Array& given,
+                       const grains::Array& before, const Field& velocity, const Field& beta, const Field& force,
+                       double& to_flow, double& to_grains, double& carried, Field& owed) {
+    for (int j = 0; j < s.load.top; ++j) {
       const Volumes v(at, j, slab_);
       const double *u = velocity.row(j), *b = beta.row(j), *f = force.row(j);
-      taken += base::vector_sum(0, nx_, [&](int i) { return dt * (f[i] - b[i] * u[i]) * v[i]; });
+      to_flow += base::vector_sum(0, nx_, [&](int i) { return dt * (f[i] - b[i] * u[i]) * v[i]; });
     }
     const auto received = [&](int k) {
-      const Before& before = before_[g.id[k]];
-      return impulse[k] - dt * (before.given.*along) -
-             relative * base::sphere_volume(g.diameter[k]) * (speed[k] - before.velocity.*along);
+      const int id = g.id[k];
+      return impulse[k] - dt * given[id] - relative * base::sphere_volume(g.diameter[k]) * (speed[k] - before[id]);
     };
     // The flow has taken beta (U - u_p) where each part of a grain is, with the water that is there; owed is only what
     // the grain's own motion during the step made of it.
-    const auto anticipated = [&](int k) {
-      return implicit ? dt * g.fluid.beta[k] * (felt[k] - before_[g.id[k]].velocity.*along) : 0.0;
-    };
+    const auto anticipated = [&](int k) { return implicit ? dt * g.fluid.beta[k] * (felt[k] - before[g.id[k]]) : 0.0; };
     owed.fill(0.0);
     to.scatter(std::array{&owed}, [&](int k) { return std::array{anticipated(k) - received(k)}; });
-    for (int k = 0; k < g.count(); ++k) given += received(k);
-    ledger_.to_flow.*along += taken;
-    ledger_.to_grains.*along += given;
-    ledger_.carried.*along = total(owed);
+    for (const int k : moving_) to_grains += received(k) - (was_still[g.id[k]] != 0 ? anticipated(k) : 0.0);
+    carried = total(owed);
   };
-  const flow::State& s = flow.state;
-  one(at_u_, flow.at_u(), &base::Vec2::x, g.impulse_x, g.u, g.fluid.u, s.u, s.load.beta_u, s.load.force_u, owed_u_);
-  one(at_v_, flow.at_v(), &base::Vec2::y, g.impulse_y, g.v, g.fluid.v, s.v, s.load.beta_v, s.load.force_v, owed_v_);
+  one(at_u_, flow.at_u(), g.impulse_x, g.u, g.fluid.u, given_x_, before_u_, s.u, s.load.beta_u, s.load.force_u,
+      ledger_.to_flow.x, ledger_.to_grains.x, ledger_.carried.x, owed_u_);
+  one(at_v_, flow.at_v(), g.impulse_y, g.v, g.fluid.v, given_y_, before_v_, s.v, s.load.beta_v, s.load.force_v,
+      ledger_.to_flow.y, ledger_.to_grains.y, ledger_.carried.y, owed_v_);
+  settle(g);
 }
 
-void Coupler::add_up_solids(const grains::State& g, Field& fraction) const {
-  fraction.fill(0.0);
-  at_c_.scatter(std::array{&fraction}, [&](int k) { return std::array{base::sphere_volume(g.diameter[k])}; });
+double Coupler::given_to_still(const Field& beta, const Field& velocity, double dt) const {
+  double sum = 0;
+  for (int j = 0; j < ny_; ++j) {
+    const double *b = beta.row(j), *u = velocity.row(j);
+    sum += base::vector_sum(0, nx_, [&](int i) { return dt * b[i] * u[i]; });
+  }
+  return sum;
+}
+
+void Coupler::to_fractions(Field& volumes) const {
   for_each_item(0, ny_, [&](int j) {
     const double* v = volume_c_.row(j);
-    double* f = fraction.row(j);
+    double* f = volumes.row(j);
     vector_loop(0, nx_, [&](int i) { f[i] = v[i] > 0 ? f[i] / v[i] : 0.0; });
   });
 }
 
 void Coupler::solid_fraction(const grains::State& g, Field& fraction) {
-  at_c_.locate(g);
-  add_up_solids(g, fraction);
+  std::vector<int> all(g.count());
+  std::iota(all.begin(), all.end(), 0);
+  at_c_.locate(g.x, g.y, all);
+  located_ = false;
+  fraction.fill(0.0);
+  add_volumes(g, fraction);
+  to_fractions(fraction);
+}
+
+void Coupler::add_volumes(const grains::State& g, Field& volumes) const {
+  at_c_.scatter(std::array{&volumes}, [&](int k) { return std::array{base::sphere_volume(g.diameter[k])}; });
 }
 
 }  // namespace livebed::coupling

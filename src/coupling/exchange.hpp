@@ -26,13 +26,15 @@ inline constexpr double packed_solid = 0.55, packed_share = 0.9;
 /// A face with less opening than this passes no pressure gradient on to grains [-]: the pressure in a sliver of a cell
 /// is whatever stops the little that flows there.
 inline constexpr double sliver = 0.05;
+/// The water around grains asleep is looked at every so many steps of the flow.
+inline constexpr int steps_a_round = 32;
 inline constexpr double solid_least = 1e-3;  ///< fewer grains leave the eddies alone [-]
 inline constexpr double room_least = 0.02;   ///< of the packed bed over d; keeps its dissipation finite
 
 /// Sums of all impulses since the release [N s]; in the slab of thickness b.  The force of the pressure gradient is not
 /// among them: the water's own equation holds its counterpart.
 struct ImpulseLedger {
-  base::Vec2 to_grains;  ///< what the water gave the grains
+  base::Vec2 to_grains;  ///< what the water gave the grains; those asleep: what the flow gave on their behalf
   base::Vec2 to_flow;    ///< what the flow has taken up
   base::Vec2 carried;    ///< still to be handed over: to_grains + to_flow + carried = 0 to round-off
   base::Vec2 error() const { return to_grains + to_flow + carried; }
@@ -54,6 +56,10 @@ struct Materials {
 ///   3  push_grains:  each grain sees the new water around it; the grains advance their sub-steps
 ///   4  collect:      what the grains truly took is set against what the flow gave; the difference is owed
 /// Forces per volume in a cell are sums of forces over dx dy b with b the grain diameter (spheres in a slab).
+///
+/// Grains that sleep (grains::Sleep) neither move nor see other water: in the first step of a round they are treated
+/// like all others; from then on the sum of what they do to the cells is kept, and each is taken out of it when it
+/// wakes.
 ///
 /// Where the inlet is recycled the water has no beginning and no end and is the same all along the box: what the grains
 /// do to it is averaged along x, as in the one-dimensional flows that bed-load experiments are compared with (Revil-
@@ -81,22 +87,32 @@ public:
   template <class Self, class Visit>
   static void each_part(Self& self, Visit&& visit) {
     visit("owed_u", self.owed_u_), visit("owed_v", self.owed_v_);
+    visit("steps", self.steps_), visit("still", self.still_);
+    visit("still_x", self.still_x_), visit("still_y", self.still_y_);
+    visit("still_given_x", self.given_x_), visit("still_given_y", self.given_y_);
+    visit("still_solid", self.still_solid_), visit("still_damping", self.still_damping_);
+    visit("still_beta_u", self.still_beta_u_), visit("still_beta_v", self.still_beta_v_);
     if (self.params_.dispersion == Dispersion::random_walk) Eddies::each_part(self.eddies_, visit);
   }
   void restore_ledger(const ImpulseLedger& ledger) { ledger_ = ledger; }
 
 private:
-  /// What the reaction on the water must know of a grain when the step is over.
-  struct Before {
-    base::Vec2 given;     ///< force whose counterpart is in the water's own equation [N]
-    base::Vec2 velocity;  ///< of the grain when the step began [m/s]
-  };
-
+  /// Weights of the grains that are not still.
   void locate(const grains::State& g);
+  /// Takes grains that have woken out of the sum of those that are still.
+  void wake(const grains::State& g);
+  /// From the second step of a round on grains asleep are still; before the first nobody is.
+  void settle(const grains::State& g);
+  /// Adds what the grains of a list do to the cells to the sums of those that are still, or takes it away again.
+  void add_still(const std::vector<int>& ids, double sign);
   /// Rows of the grid, from the floor, that the kernel of any grain touches.
   int rows_with_grains(const grains::State& g) const;
   void fill_voids(const grains::State& g, flow::Solver& flow, double interval);
-  void add_up_solids(const grains::State& g, base::Field& fraction) const;
+  /// volumes += what the located grains fill of each cell [m3].
+  void add_volumes(const grains::State& g, base::Field& volumes) const;
+  void to_fractions(base::Field& volumes) const;
+  /// Impulse that the flow has given to the grains that are still [N s].
+  double given_to_still(const base::Field& beta, const base::Field& velocity, double dt) const;
   /// Velocity of the water and fluctuation at each grain.
   void feel_eddies(grains::State& g, const flow::Solver& flow, double dt);
   /// load.room <- distance of each cell with grains from the packed bed, ways through grains counting less by what
@@ -127,8 +143,19 @@ private:
   grains::Array eddy_k_, eddy_epsilon_;  ///< of the water around it [m2/s2], [m2/s3]
   grains::Array eddy_u_, eddy_v_;        ///< fluctuation it feels [m/s]
   grains::Array slope_x_, slope_y_, rate_x_, rate_y_, vorticity_;
-  std::vector<Before> before_;  ///< by id
-  base::Field volume_c_;        ///< of the cells, water and grains, slab included [m3]
+
+  // By id, what the reaction on the water must know of a grain when the step is over: force whose counterpart is in the
+  // water's own equation [N], velocity when the step began [m/s].
+  grains::Array given_x_, given_y_, before_u_, before_v_;
+
+  // Grains that are still, by id: where they are [m] and what they do to the cells; and the sums of that.
+  std::int64_t steps_ = 0;           ///< with grains free to move
+  std::vector<std::int32_t> still_;  ///< 1 = still
+  grains::Array still_x_, still_y_, still_beta_, still_volume_, still_damps_;
+  base::Field still_solid_, still_beta_u_, still_beta_v_, still_damping_;
+  std::vector<int> moving_;  ///< all others, in the order of the storage
+
+  base::Field volume_c_;  ///< of the cells, water and grains, slab included [m3]
   base::Field voids_, slope_u_, slope_v_, rate_u_, rate_v_, curl_;
 };
 

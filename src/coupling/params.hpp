@@ -50,6 +50,7 @@ struct Params {
   double turbulence_inertia = 0.25;  ///< B of the share exp(-B St) of an eddy's motion that a grain follows [-]
   double room_scale = 0.5;           ///< largest mixing length among grains over kappa x that distance [-]
   Dispersion dispersion = Dispersion::none;
+  double dispersion_energy = 1;  ///< energy of the eddies that grains feel over the modelled k [-]
   double dispersion_time = 0.2;  ///< Lagrangian time scale over k/epsilon [-]
   double kernel = 2;             ///< half-width of the transfer kernel over the grain diameter [-]
 };

@@ -50,28 +50,24 @@ Transfer::Transfer(const flow::Staggering& at, const base::Field& aperture, int 
   bin_first_.assign(bins + 1, 0);
 }
 
-void Transfer::locate(const grains::State& g) {
-  const int n = g.count(), bins = static_cast<int>(bin_first_.size()) - 1;
-  const int known = static_cast<int>(footprint_.size());
+void Transfer::locate(const grains::Array& x, const grains::Array& y, const std::vector<int>& which) {
+  const int n = static_cast<int>(which.size()), bins = static_cast<int>(bin_first_.size()) - 1;
+  grain_ = which;
   footprint_.resize(n);
-  x_.resize(n), y_.resize(n);
-  weight_x_.resize(static_cast<std::size_t>(n) * widest_);
-  weight_y_.resize(static_cast<std::size_t>(n) * widest_);
-  base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int k) {
-    for (int m = k * grains_a_block; m < std::min(n, (k + 1) * grains_a_block); ++m) {
-      if (m < known && x_[m] == g.x[m] && y_[m] == g.y[m]) continue;  // asleep, or not moved since
-      locate_one(m, g.x[m], g.y[m]);
-      x_[m] = g.x[m], y_[m] = g.y[m];
-    }
-  });
-  const double low = edges_x_.front(), scale = bins / (edges_x_.back() - low);
   bin_of_.resize(n);
   order_.resize(n);
+  weight_x_.resize(static_cast<std::size_t>(n) * widest_);
+  weight_y_.resize(static_cast<std::size_t>(n) * widest_);
+  const double low = edges_x_.front(), scale = bins / (edges_x_.back() - low);
+  base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int k) {
+    for (int m = k * grains_a_block; m < std::min(n, (k + 1) * grains_a_block); ++m) {
+      const int grain = which[m];
+      locate_one(m, x[grain], y[grain]);
+      bin_of_[m] = std::clamp(static_cast<int>((x[grain] - low) * scale), 0, bins - 1);
+    }
+  });
   std::fill(bin_first_.begin(), bin_first_.end(), 0);
-  for (int k = 0; k < n; ++k) {
-    bin_of_[k] = std::clamp(static_cast<int>((g.x[k] - low) * scale), 0, bins - 1);
-    ++bin_first_[bin_of_[k] + 1];
-  }
+  for (int k = 0; k < n; ++k) ++bin_first_[bin_of_[k] + 1];
   for (int b = 0; b < bins; ++b) bin_first_[b + 1] += bin_first_[b];
   for (int k = 0; k < n; ++k) order_[bin_first_[bin_of_[k]]++] = k;
   for (int b = bins; b > 0; --b) bin_first_[b] = bin_first_[b - 1];

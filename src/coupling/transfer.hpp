@@ -22,9 +22,10 @@ public:
   Transfer(const flow::Staggering& at, const base::Field& aperture, int first_column, int last_column,
            double half_width);
 
-  /// Computes the weights of every grain and sorts the grains into bins of columns; two bins apart share no volume.  To
-  /// be called when grains have moved or changed places, before gather and scatter.
-  void locate(const grains::State& g);
+  /// Computes the weights of the grains n in `which`, at (x[n], y[n]), and sorts them into bins of columns; two bins
+  /// apart share no volume.  To be called when grains have moved or changed places, before gather and scatter, which
+  /// are about these grains alone.
+  void locate(const grains::Array& x, const grains::Array& y, const std::vector<int>& which);
 
   /// values[m][n] = kernel mean of field m at grain n, for several fields at once.
   template <std::size_t M>
@@ -41,7 +42,7 @@ public:
             sum[m] += wy * row;
           }
         });
-        for (std::size_t m = 0; m < M; ++m) (*values[m])[k] = sum[m];
+        for (std::size_t m = 0; m < M; ++m) (*values[m])[grain_[k]] = sum[m];
       }
     });
   }
@@ -59,7 +60,7 @@ public:
         const int bin = 2 * half + parity;
         for (int k = bin_first_[bin]; k < bin_first_[bin + 1]; ++k) {
           const int n = order_[k];
-          const std::array<double, M> value = values(n);
+          const std::array<double, M> value = values(grain_[n]);
           for_each_row(n, [&](int i0, int ni, int j, double wy, const double* wx, const double* open) {
             for (std::size_t m = 0; m < M; ++m) {
               double* to = fields[m]->row(j) + i0;
@@ -78,7 +79,8 @@ private:
   struct Footprint {
     int i0, ni, j0, nj;
   };
-  /// Calls visit once for each row of volumes of grain n, with the weights along x and the open fractions of the row.
+  /// Calls visit once for each row of volumes of the nth grain, with the weights along x and the open fractions of the
+  /// row.
   template <class Visit>
   void for_each_row(int n, Visit&& visit) const {
     const Footprint& f = footprint_[n];
@@ -94,7 +96,7 @@ private:
   std::vector<double> edges_x_, edges_y_;  // of the volumes that may receive
   base::Field open_;                       // open fraction of each
   std::vector<Footprint> footprint_;
-  std::vector<double> x_, y_;                // where each was located
+  std::vector<int> grain_;                   // which grain each is
   std::vector<double> weight_x_, weight_y_;  // widest_ entries a grain; those along y hold the normalisation
   std::vector<int> bin_first_, order_, bin_of_;
 };
