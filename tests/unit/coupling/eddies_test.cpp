@@ -11,35 +11,43 @@ struct Moments {
   double mean_u = 0, mean_v = 0, square_u = 0, square_v = 0, product = 0, with_before = 0;
 };
 
-TEST(eddies, have_the_variance_and_the_memory_of_the_turbulence) {
+TEST(eddies, have_the_energy_of_a_stream_over_a_bed_and_the_memory_of_the_turbulence) {
   const int count = 4000;
   Eddies eddies(count, 7);
-  const Eddies::Eddy same{0.1, 0, 0, 0.02, 0.5};
+  const double k = 0.01, energy_x = Eddies::energy_across * k, energy_y = Eddies::energy_along * k;
+  const Eddies::Eddy same{{0, 1}, k, {}, 0.02, 0.01};  // a stream that rises
   std::vector<double> before(count, 0.0);
   Moments m;
   const double dt = 0.005;
   for (int n = 0; n < 60; ++n) {
     m = {};
     eddies.begin_step();
-    for (int k = 0; k < count; ++k) {
-      const auto [u, v] = eddies.advance(k, dt, same);
+    for (int g = 0; g < count; ++g) {
+      const auto [u, v] = eddies.advance(g, dt, same);
       m.mean_u += u / count, m.mean_v += v / count;
       m.square_u += u * u / count, m.square_v += v * v / count, m.product += u * v / count;
-      m.with_before += u * before[k] / count;
-      before[k] = u;
+      m.with_before += u * before[g] / count;
+      before[g] = u;
     }
   }
-  const double scatter = 0.01 / std::sqrt(count);  // of a mean of sigma^2 = 0.01
-  EXPECT_NEAR(m.mean_u, 0, 4 * 0.1 / std::sqrt(count));
-  EXPECT_NEAR(m.mean_v, 0, 4 * 0.1 / std::sqrt(count));
-  EXPECT_NEAR(m.square_u, 0.01, 6 * scatter);
-  EXPECT_NEAR(m.square_v, 0.01, 6 * scatter);
-  EXPECT_NEAR(m.product, 0, 4 * scatter);
-  EXPECT_NEAR(m.with_before, 0.01 * std::exp(-dt / 0.02), 6 * scatter);
+  const double scatter = 1 / std::sqrt(count);
+  EXPECT_NEAR(m.mean_u, 0, 4 * std::sqrt(energy_x) * scatter);
+  EXPECT_NEAR(m.mean_v, 0, 4 * std::sqrt(energy_y) * scatter);
+  EXPECT_NEAR(m.square_u, energy_x, 6 * energy_x * scatter);
+  EXPECT_NEAR(m.square_v, energy_y, 6 * energy_y * scatter);
+  EXPECT_NEAR(m.product, 0, 4 * std::sqrt(energy_x * energy_y) * scatter);
+  EXPECT_NEAR(m.with_before, energy_x * std::exp(-dt / 0.02), 6 * energy_x * scatter);
+}
+
+TEST(eddies, last_as_long_as_the_turbulence_or_viscosity_says) {
+  // In the stream k/epsilon is long, at a smooth wall (epsilon = 0.2 u*^4/nu) T_L is 10 nu/u*^2.
+  EXPECT_DOUBLE_EQ(Eddies::life_time(0.2, 0.01, 0.005, 1e-6), 0.4);
+  const double u_star = 0.04, nu = 1e-6, epsilon = 0.2 * std::pow(u_star, 4) / nu;
+  EXPECT_NEAR(Eddies::life_time(0.2, 1e-5, epsilon, nu), 10 * nu / (u_star * u_star), 0.1 * nu / (u_star * u_star));
 }
 
 TEST(eddies, know_the_grain_the_step_and_the_seed_and_nothing_else) {
-  const Eddies::Eddy same{0.1, 0, 0, 0.02, 0.5};
+  const Eddies::Eddy same{{1, 0}, 0.01, {}, 0.02, 0.01};
   Eddies forwards(50, 3), backwards(50, 3), seeded(50, 4);
   std::vector<double> first(50);
   for (Eddies* e : {&forwards, &backwards, &seeded}) e->begin_step();
@@ -64,7 +72,9 @@ TEST(eddies, do_not_gather_where_the_turbulence_is_weak) {
   for (int n = 0; n < 600; ++n) {
     eddies.begin_step();
     for (int k = 0; k < count; ++k) {
-      y[k] += dt * eddies.advance(k, dt, {sigma(y[k]), 0, 0.8, 0.1, 0}).y;
+      // Across the stream the fluctuation is sqrt(energy_across k).
+      const double size = std::sqrt(Eddies::energy_across), root = sigma(y[k]) / size;
+      y[k] += dt * eddies.advance(k, dt, {{1, 0}, root * root, {0, 0.8 / size}, 0.1, 0}).y;
       if (y[k] < 0) y[k] = -y[k];
       if (y[k] > 1) y[k] = 2 - y[k];
     }

@@ -122,6 +122,55 @@ TEST(coupler, hands_the_whole_impulse_of_a_lagged_step_to_the_next) {
   EXPECT_EQ(pair.total(pair.load().beta_u, pair.solver.at_u()), 0.0);
 }
 
+/// One step in which the grains keep their speeds and take what the drag of a constant slip gives; all wake in it or
+/// not.
+void coast(Pair& pair, double dt, bool all_wake = false) {
+  pair.coupler.load_flow(pair.g, pair.solver, dt, false);
+  pair.solver.advance(dt);
+  pair.coupler.push_grains(pair.solver, pair.g, dt);
+  for (int k = 0; k < 2; ++k) {
+    const grains::FluidForce& f = pair.g.fluid;
+    pair.g.impulse_x[k] = dt * (f.fx[k] + f.beta[k] * (f.u[k] - pair.g.u[k]));
+    pair.g.impulse_y[k] = dt * (f.fy[k] + f.beta[k] * (f.v[k] - pair.g.v[k]));
+  }
+  if (all_wake) std::fill(pair.g.sleep.asleep.begin(), pair.g.sleep.asleep.end(), 0);
+  pair.coupler.collect(pair.g, pair.solver, dt);
+}
+
+TEST(coupler, owes_nothing_when_grains_do_not_change_their_speed) {
+  // A jet that is as narrow as the grains: the water that each part of a grain meets is not the mean around it.
+  Pair pair({.drag = Drag::di_felice, .voidage = Voidage::on, .kernel = 2});
+  for (int i = 0; i < pair.solver.mesh().nx; ++i) pair.solver.state.u(i, 5) = 0.3;
+  coast(pair, 1e-4);
+  const ImpulseLedger& ledger = pair.coupler.ledger();
+  EXPECT_GT(base::norm(ledger.to_flow), 1e-9);
+  EXPECT_LT(base::norm(ledger.carried), 1e-14 * base::norm(ledger.to_flow));
+  EXPECT_LT(base::norm(ledger.error()), 1e-13 * base::norm(ledger.to_flow));
+}
+
+TEST(coupler, keeps_what_grains_asleep_do_to_the_water) {
+  const Params params{.drag = Drag::di_felice, .voidage = Voidage::on, .kernel = 2};
+  Pair awake(params), asleep(params);
+  asleep.g.sleep.asleep = {0, 1};
+  const double dt = 1e-4;
+  const auto beta = [](const Pair& p) { return p.total(p.load().beta_u, p.solver.at_u()); };
+  for (int n = 0; n < 3 * steps_a_round; ++n) {
+    const int wakes = 2 * steps_a_round + 5;
+    for (Pair* p : {&awake, &asleep}) {
+      if (n > wakes) p->g.u[1] = -0.1;
+      coast(*p, dt, n == wakes);
+      for (int k = 0; k < 2; ++k) p->g.x[k] += dt * p->g.u[k], p->g.y[k] += dt * p->g.v[k];
+      ASSERT_LT(base::norm(p->coupler.ledger().error()), 1e-12 * base::norm(p->coupler.ledger().to_flow)) << n;
+    }
+    // Its drag is looked at once a round; in between the water hardly changes.
+    ASSERT_NEAR(beta(asleep), beta(awake), 0.05 * beta(awake)) << n;
+    ASSERT_NEAR(asleep.solver.state.voidage(15, 5), awake.solver.state.voidage(15, 5), 1e-3) << n;
+  }
+  EXPECT_NE(asleep.coupler.ledger().to_flow.x, awake.coupler.ledger().to_flow.x) << "nobody was still";
+  EXPECT_NEAR(asleep.coupler.ledger().to_flow.x, awake.coupler.ledger().to_flow.x,
+              0.02 * std::abs(awake.coupler.ledger().to_flow.x));
+}
+
 TEST(coupler, finds_the_solid_volume_of_the_grains_in_the_cells) {
   Pair pair({});
   base::Field fraction(pair.solver.mesh().nx, pair.solver.mesh().ny);

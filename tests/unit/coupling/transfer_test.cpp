@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numeric>
 #include <random>
 
 #include "base/loops.hpp"
@@ -41,6 +42,12 @@ grains::State sand(int count) {
   for (double x : {0.0, 1e-12, length - 1e-12})
     for (double y : {1e-12, 0.5 * diameter, height}) add(x, y);
   return g;
+}
+
+std::vector<int> all_of(const grains::State& g) {
+  std::vector<int> all(g.x.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 /// The three kinds of transfer on one mesh.
@@ -87,7 +94,7 @@ TEST(transfer, scatters_every_grain_whole) {
   const grains::Array values = random_values(g.x.size());
   for (Kind& kind : kinds(mesh)) {
     base::Field field(mesh.nx, mesh.ny);
-    kind.transfer.locate(g);
+    kind.transfer.locate(g.x, g.y, all_of(g));
     kind.transfer.scatter(std::array{&field}, [&](int n) { return std::array{values[n]}; });
     EXPECT_NEAR(sum(field), sum(values), 1e-12 * sum(values)) << kind.name;
   }
@@ -97,7 +104,7 @@ TEST(transfer, gives_each_single_grain_weights_that_sum_to_one_and_are_not_negat
   const flow::Mesh mesh = box(2e-3);
   const grains::State g = sand(100);
   for (Kind& kind : kinds(mesh)) {
-    kind.transfer.locate(g);
+    kind.transfer.locate(g.x, g.y, all_of(g));
     for (int n = 0; n < g.count(); ++n) {
       base::Field field(mesh.nx, mesh.ny);
       kind.transfer.scatter(std::array{&field}, [&](int k) { return std::array{k == n ? 1.0 : 0.0}; });
@@ -112,7 +119,7 @@ TEST(transfer, puts_nothing_where_the_pipe_leaves_no_water) {
   const grains::State g = sand(2000);
   for (Kind& kind : kinds(mesh)) {
     base::Field field(mesh.nx, mesh.ny);
-    kind.transfer.locate(g);
+    kind.transfer.locate(g.x, g.y, all_of(g));
     kind.transfer.scatter(std::array{&field}, [](int) { return std::array{1.0}; });
     int closed = 0, behind = 0;
     for (int j = kind.at.j0; j < kind.at.j1; ++j)
@@ -135,7 +142,7 @@ TEST(transfer, gathers_a_constant_as_that_constant) {
   for (Kind& kind : kinds(mesh)) {
     const base::Field field(mesh.nx, mesh.ny, 2, 0.37);
     grains::Array values(g.x.size());
-    kind.transfer.locate(g);
+    kind.transfer.locate(g.x, g.y, all_of(g));
     kind.transfer.gather(field, values);
     for (double v : values) EXPECT_NEAR(v, 0.37, 1e-15);
   }
@@ -151,7 +158,7 @@ TEST(transfer, gathers_what_it_would_scatter) {
     base::Field field(mesh.nx, mesh.ny), spread(mesh.nx, mesh.ny);
     for (double& v : field.storage()) v = any(generator);
     grains::Array gathered(g.x.size());
-    kind.transfer.locate(g);
+    kind.transfer.locate(g.x, g.y, all_of(g));
     kind.transfer.gather(field, gathered);
     kind.transfer.scatter(std::array{&spread}, [&](int n) { return std::array{values[n]}; });
     double at_grains = 0, in_cells = 0, size = 0;
@@ -180,7 +187,7 @@ TEST(transfer, does_not_depend_on_the_size_of_the_cells) {
     const flow::Mesh mesh = box(cell);
     base::Field field(mesh.nx, mesh.ny);
     Transfer transfer(flow::Staggering::centres(mesh), mesh.volume, 0, mesh.nx - 1, half_width);
-    transfer.locate(g);
+    transfer.locate(g.x, g.y, all_of(g));
     transfer.scatter(std::array{&field}, [](int) { return std::array{1.0}; });
     double inside = 0;
     for (int j = 0; j < mesh.ny; ++j)
@@ -202,7 +209,7 @@ TEST(transfer, finds_a_volume_for_a_grain_in_the_corner_of_coarse_cells) {
   g.x = {0.0, 1e-4, 0.4 - 1e-9}, g.y = {1e-4, 1e-4, 1e-4}, g.diameter = {diameter, diameter, diameter};
   for (Kind& kind : kinds(mesh)) {
     base::Field field(mesh.nx, mesh.ny);
-    kind.transfer.locate(g);
+    kind.transfer.locate(g.x, g.y, all_of(g));
     kind.transfer.scatter(std::array{&field}, [](int) { return std::array{1.0}; });
     EXPECT_NEAR(sum(field), 3.0, 1e-14) << kind.name;
   }
@@ -219,7 +226,7 @@ TEST(transfer, gives_the_same_bits_on_any_number_of_threads) {
       base::set_threads(threads);
       base::Field field(mesh.nx, mesh.ny);
       grains::Array gathered(g.x.size());
-      kind.transfer.locate(g);
+      kind.transfer.locate(g.x, g.y, all_of(g));
       kind.transfer.scatter(std::array{&field}, [&](int n) { return std::array{values[n]}; });
       kind.transfer.gather(field, gathered);
       if (threads == 1) first = field, gathered_first = gathered;
