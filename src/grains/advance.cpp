@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "base/fault.hpp"
+#include "grains/refresh.hpp"
 #include "grains/sleep.hpp"
 
 namespace livebed::grains {
@@ -12,10 +13,34 @@ using base::fail;
 
 namespace {
 
+void check_sizes(const Bed& bed) {
+  const std::size_t n = static_cast<std::size_t>(bed.params.count);
+  const State& s = bed.state;
+  for (const Array* a : {&s.x, &s.y, &s.u, &s.v, &s.omega, &s.diameter, &s.fluid.u, &s.fluid.v, &s.fluid.beta,
+                         &s.fluid.fx, &s.fluid.fy, &s.impulse_x, &s.impulse_y}) {
+    if (a->size() != n) fail(Exit::internal, "an array of the grains has {} entries for {} grains", a->size(), n);
+  }
+  if (s.id.size() != n) fail(Exit::internal, "the grains have {} ids for {} grains", s.id.size(), n);
+}
+
+/// Only new lists reorder the grains.
+void check_ids(const Bed& bed) {
+  const State& s = bed.state;
+  const std::size_t n = s.id.size();
+  std::vector<char> seen(n, 0);
+  for (const std::int32_t id : s.id) {
+    if (id < 0 || static_cast<std::size_t>(id) >= n || seen[id]) {
+      fail(Exit::internal, "grain id {} is doubled or outside 0 to {}: a grain was lost", id, n - 1);
+    }
+    seen[id] = 1;
+  }
+}
+
 /// Sorts, lists, and copies the grains into the force loop's records; collects what the old records hold first.
 void renew(Bed& bed, const Sweep& constants) {
   bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
   count_impulses(bed);
+  check_ids(bed);
   try {
     rebuild(bed.state, bed.contacts, bed.scratch, constants.reach, bed.pipe, constants.walls);
   } catch (const base::Fault& fault) {
@@ -44,24 +69,12 @@ Bed make_bed(const Params& complete) {
 }
 
 void check_count(const Bed& bed) {
-  const std::size_t n = static_cast<std::size_t>(bed.params.count);
-  const State& s = bed.state;
-  for (const Array* a : {&s.x, &s.y, &s.u, &s.v, &s.omega, &s.diameter, &s.fluid.u, &s.fluid.v, &s.fluid.beta,
-                         &s.fluid.fx, &s.fluid.fy, &s.impulse_x, &s.impulse_y}) {
-    if (a->size() != n) fail(Exit::internal, "an array of the grains has {} entries for {} grains", a->size(), n);
-  }
-  if (s.id.size() != n) fail(Exit::internal, "the grains have {} ids for {} grains", s.id.size(), n);
-  std::vector<char> seen(n, 0);
-  for (const std::int32_t id : s.id) {
-    if (id < 0 || static_cast<std::size_t>(id) >= n || seen[id]) {
-      fail(Exit::internal, "grain id {} is doubled or outside 0 to {}: a grain was lost", id, n - 1);
-    }
-    seen[id] = 1;
-  }
+  check_sizes(bed);
+  check_ids(bed);
 }
 
 void advance(Bed& bed, int steps) {
-  check_count(bed);
+  check_sizes(bed);
   const Sweep constants = make_sweep(bed.params, bed.pipe);
   const int between_looks = steps_between_looks(bed.params);
   prepare_sleep(bed);
@@ -76,8 +89,11 @@ void advance(Bed& bed, int steps) {
     const bool held = sweep(constants, bed.contacts, bed.records);
     ++bed.steps;
     if (!held) {
-      read_records(constants, bed.steps, bed.records, bed.state);
-      renew(bed, constants);
+      bed.records.border_known = false;
+      if (!refresh(constants, bed.state, bed.contacts, bed.records, bed.scratch)) {
+        read_records(constants, bed.steps, bed.records, bed.state);
+        renew(bed, constants);
+      }
     }
     if (bed.params.sleep && bed.steps % between_looks == 0) look(bed, constants);
   }

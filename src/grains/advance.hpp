@@ -28,7 +28,7 @@ Bed make_bed(const Params& complete);
 
 /// Moves the grains by `steps` steps of params.step in the fluid forces of state.fluid, which stay as they are.  The
 /// order of the grains may change: they are sorted whenever the lists are rebuilt.  The same bits for any number of
-/// threads.  Throws Fault (diverged) naming the grain, its place and the step when a number is not finite or a grain
+/// threads.  Costs what the grains awake cost: nobody may move a sleeper in between.  Throws Fault (diverged) naming the grain, its place and the step when a number is not finite or a grain
 /// has left the box, Fault (internal) when a grain is missing or doubled.
 void advance(Bed& bed, int steps);
 
@@ -36,7 +36,7 @@ void advance(Bed& bed, int steps);
 void check_count(const Bed& bed);
 
 /// Calls visit(name, array) for every array a checkpoint must hold (doubles and integers), State and Contacts alike, in
-/// a fixed order.  With these, Contacts::pipe_built and ::rebuilds, pipe_impulse and steps, a bed goes on with the same
+/// a fixed order.  With these, Contacts::pipe_built, ::rebuilds and ::refreshed, pipe_impulse and steps, a bed goes on with the same
 /// bits.
 template <class BedLike, class Visit>
 void each_array(BedLike& bed, Visit&& visit) {
@@ -47,8 +47,8 @@ void each_array(BedLike& bed, Visit&& visit) {
   visit("fluid_u", s.fluid.u), visit("fluid_v", s.fluid.v), visit("fluid_beta", s.fluid.beta);
   visit("fluid_fx", s.fluid.fx), visit("fluid_fy", s.fluid.fy);
   visit("impulse_x", s.impulse_x), visit("impulse_y", s.impulse_y);
-  visit("list_first", c.first), visit("list_first_apart", c.first_apart), visit("list_neighbour", c.neighbour),
-      visit("list_spring", c.spring);
+  visit("list_first", c.first), visit("list_last", c.last), visit("list_first_apart", c.first_apart);
+  visit("list_neighbour", c.neighbour), visit("list_spring", c.spring);
   visit("floor_spring", c.wall_spring[slot_floor]), visit("floor_odd_spring", c.wall_spring[slot_floor_odd]);
   visit("pipe_spring", c.wall_spring[slot_pipe]), visit("list_near", c.near);
   auto& z = s.sleep;

@@ -8,12 +8,6 @@
 
 namespace livebed::grains {
 
-namespace {
-
-constexpr int slices_per_block = 8;  ///< what one thread takes at a time
-
-}  // namespace
-
 Sweep make_sweep(const Params& p, const Circle& pipe) {
   // An even number of fixed grains fills the period, so that even and odd ones alternate across the seam.
   const double pairs = std::max(1.0, std::round(p.length / (2 * p.diameter)));
@@ -51,32 +45,37 @@ void fill_slice(const State& s, int slice, std::int64_t steps, Records& r) {
   }
 }
 
+void list_awake(Records& r) {
+  r.awake.clear();
+  for (std::size_t slice = 0; slice < r.asleep.size(); ++slice)
+    if (r.asleep[slice] == 0) r.awake.push_back(static_cast<std::int32_t>(slice));
+  r.moved.assign((r.awake.size() + slices_per_block - 1) / slices_per_block, 0);
+  r.border_known = false;
+}
+
 void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r, base::Arena& memory) {
   const int n = s.count(), slices = c.slices(), last = nobody(n);
-  const bool all = !r.hold(c);
-  if (all) {
+  if (!r.hold(c)) {
     const std::size_t places = last + 1, owners = slices;
     memory.divide<Place, Place, Motion, Motion, Own, std::int64_t>({r.place, places}, {r.place_next, places},
                                                                    {r.motion, places}, {r.motion_next, places},
                                                                    {r.own, owners}, {r.filled_at, owners});
+    base::for_each_item(0, slices, [&](int slice) { fill_slice(s, slice, steps, r); });
+    // Lanes without a grain have a radius all the same: a mass of nothing would spread.
+    for (int i = n; i <= last; ++i) {
+      r.place[i] = r.place_next[i] = {0, far_away, 1, 0};
+      r.motion[i] = r.motion_next[i] = {0, 0};
+    }
+    r.pipe_impulse_x.assign(slices, 0);
+    r.pipe_impulse_y.assign(slices, 0);
+    r.filled_for = c.rebuilds;
+  } else {
+    base::for_each_item(0, static_cast<int>(r.awake.size()), [&](int k) { fill_slice(s, r.awake[k], steps, r); });
   }
-  r.asleep.resize(slices, 0);
-  base::for_each_item(0, slices, [&](int slice) {
-    if (all || r.asleep[slice] == 0) fill_slice(s, slice, steps, r);
-  });
-  r.filled_for = c.rebuilds;
-  // Lanes without a grain have a radius all the same: a mass of nothing would spread.
-  for (int i = n; i <= last; ++i) {
-    r.place[i] = r.place_next[i] = {0, far_away, 1, 0};
-    r.motion[i] = r.motion_next[i] = {0, 0};
-  }
-  r.moved.assign((slices + slices_per_block - 1) / slices_per_block, 0);
-  r.pipe_impulse_x.assign(slices, 0);
-  r.pipe_impulse_y.assign(slices, 0);
 }
 
 bool sweep(const Sweep& k, Contacts& c, Records& r) {
-  const int slices = c.slices(), blocks = static_cast<int>(r.moved.size());
+  const int slices = static_cast<int>(r.awake.size()), blocks = static_cast<int>(r.moved.size());
   const auto step_slices = kernels().step_slices;
   base::for_each_item(0, blocks, [&](int block) {
     const int begin = block * slices_per_block;
@@ -105,9 +104,7 @@ void read_slice(const Sweep& k, std::int64_t steps, const Records& r, int slice,
 }
 
 void read_records(const Sweep& k, std::int64_t steps, const Records& r, State& s) {
-  base::for_each_item(0, static_cast<int>(r.own.size()), [&](int slice) {
-    if (r.asleep[slice] == 0) read_slice(k, steps, r, slice, s);
-  });
+  base::for_each_item(0, static_cast<int>(r.awake.size()), [&](int n) { read_slice(k, steps, r, r.awake[n], s); });
 }
 
 base::Vec2 collect_pipe_impulse(Records& r) {

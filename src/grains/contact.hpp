@@ -38,15 +38,20 @@ struct Records {
   base::Lease<Own> own;
   base::Lease<std::int64_t> filled_at;   ///< of each slice: steps of the bed when it was filled
   std::vector<std::uint8_t> asleep;      ///< of each slice: it is passed over
+  std::vector<std::int32_t> awake;       ///< slices that are not, in order
+  std::vector<std::int32_t> border;      ///< those asleep with a neighbour awake, in order; see border_known
+  bool border_known = false;             ///< neither slices nor neighbours have changed since it was found
   std::vector<std::uint8_t> turn;        ///< of each slice: it wakes or falls asleep
   std::vector<std::int64_t> slept_from;  ///< of each sleeping slice: step up to which its impulses are counted
   std::int64_t filled_for = -1;          ///< number of the lists (Contacts::rebuilds) all slices were filled for
-  std::vector<std::uint8_t> moved;       ///< of each block of slices: some grain left its half skin
+  std::vector<std::uint8_t> moved;       ///< of each block of slices awake: some grain left its half skin
   Array pipe_impulse_x, pipe_impulse_y;  ///< of each slice since the last collection [N s]
 
   /// Whether they have been filled since the lists were made.
   bool hold(const Contacts& c) const { return !place.empty() && filled_for == c.rebuilds; }
 };
+
+inline constexpr int slices_per_block = 8;  ///< what one thread takes at a time
 
 /// The constants of a step.
 struct Sweep {
@@ -67,6 +72,9 @@ struct Sweep {
 /// Constants from complete parameters (derive).
 Sweep make_sweep(const Params& p, const Circle& pipe);
 
+/// Who is awake, by what is known of who sleeps.
+void list_awake(Records& r);
+
 /// Fills the records from the state, those of sleeping slices once for each new lists, and clears the pipe's impulse.
 /// steps: of the bed so far.
 void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r, base::Arena& memory);
@@ -84,7 +92,7 @@ void read_slice(const Sweep& k, std::int64_t steps, const Records& r, int slice,
 ///   1  F <- contacts with neighbours, floor and pipe; histories forward
 ///   2  (m + dt beta) u <- m u + dt (F + weight + f + beta U); the drag is implicit;  impulse += dt (f + beta (U - u))
 ///   3  spin <- spin + dt r sum f_s / I;  x <- x + dt u, wrapped into [0, length)
-/// Returns false when some grain has moved more than half a skin (or nowhere finite), so that the lists must be rebuilt
+/// Returns false when some grain has moved more than half a skin (or nowhere finite), so that it must be listed anew
 /// before the next step.
 bool sweep(const Sweep& k, Contacts& c, Records& r);
 

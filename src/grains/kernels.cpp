@@ -16,9 +16,11 @@ struct Part {
   Lanes force_x{}, force_y{}, twist{};  ///< twist: sum of f_s and of rolling moments over r; the torque is r times that
 };
 
-/// What a contact computes: a kernel for each of the laws, with and without rolling resistance.
-template <Law dashpots, bool rolls>
+/// What a contact computes: a kernel for each of the laws, with and without rolling resistance, and whether it keeps
+/// its histories.
+template <Law dashpots, bool rolls, bool keeps>
 struct Form {
+  static constexpr bool remembers = keeps;
   static constexpr Law law = dashpots;
   static constexpr bool rolling = rolls;
   static constexpr bool sized = rolls || dashpots == Law::hooke;  ///< needs what mass and size decide
@@ -55,11 +57,11 @@ template <class Form, class ReducedOf, class Rate>
   g.force_x -= f_n * t.n_x + f_s * t.n_y;
   g.force_y += f_s * t.n_x - f_n * t.n_y;
   g.twist += f_s;
-  store(spring, after);
+  if constexpr (Form::remembers) store(spring, after);
   if constexpr (Form::rolling) {
     const RollingMoment<Lanes> m = rolling_moment<Lanes>(law, reduced, f_n, rate(), load(rolling));
     g.twist += select(t.touching, m.moment, zero) / g.r;
-    store(rolling, select(t.touching, m.spring, zero));
+    if constexpr (Form::remembers) store(rolling, select(t.touching, m.spring, zero));
   }
 }
 
@@ -202,7 +204,7 @@ template <class Form, bool across_seam>
   const Reach reach = k.reach;
   Part g = part;
   int row = c.first[slice], end = c.first_apart[slice];
-  const int last = c.first[slice + 1];
+  const int last = c.last[slice];
   while (true) {
     for (; row < end; ++row) {
       const std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(row) * lanes;
@@ -299,23 +301,23 @@ inline bool step_slice(const Sweep& k, Contacts& c, Records& records, int slice)
 }
 
 /// Calls run(Form{}) for the laws of a case.
-template <class Run>
+template <bool keeps, class Run>
 auto with_form(const Sweep& k, Run&& run) {
-  if (k.law == Law::hooke) return k.reach.rolling ? run(Form<Law::hooke, true>{}) : run(Form<Law::hooke, false>{});
-  return k.reach.rolling ? run(Form<Law::paper, true>{}) : run(Form<Law::paper, false>{});
+  if (k.law == Law::hooke)
+    return k.reach.rolling ? run(Form<Law::hooke, true, keeps>{}) : run(Form<Law::hooke, false, keeps>{});
+  return k.reach.rolling ? run(Form<Law::paper, true, keeps>{}) : run(Form<Law::paper, false, keeps>{});
 }
 
 bool step_slices(const Sweep& k, Contacts& c, Records& r, int begin, int end) {
-  return with_form(k, [&](auto form) {
+  return with_form<true>(k, [&](auto form) {
     bool moved = false;
-    for (int slice = begin; slice < end; ++slice)
-      if (r.asleep[slice] == 0) moved |= step_slice<decltype(form)>(k, c, r, slice);
+    for (int n = begin; n < end; ++n) moved |= step_slice<decltype(form)>(k, c, r, r.awake[n]);
     return moved;
   });
 }
 
 void push_slice(const Sweep& k, Contacts& c, Records& r, int slice, SliceForce& force) {
-  with_form(k, [&](auto form) {
+  with_form<false>(k, [&](auto form) {
     for (int lane = 0; lane < lanes; lane += width) {
       Part g = part_of(r, slice * lanes + lane);
       push_all<decltype(form)>(k, g, c, r, slice, lane);
@@ -343,14 +345,19 @@ int find_one(const Cells& cells, const Reach& reach, int rank, ListScratch& w, s
   std::int32_t apart[most_neighbours];
   int n_close = 0, n_apart = 0;
   const double x = w.x[rank], y = w.y[rank], touching = w.touching[rank];
-  const int cell = w.cell[w.old_of_rank[rank]], column = cell / cells.rows, row = cell - column * cells.rows;
+  const int cell = w.cell[w.old_of_rank[rank]], strip = cell / Cells::band, in_band = cell % Cells::band;
+  const int band = strip / cells.columns, row = band * Cells::band + in_band;
+  // Cells of a column follow one another within a band: one run, or two across an edge of it.
   const int low = row > 0 ? row - 1 : 0, high = row < cells.rows - 1 ? row + 1 : row;
+  const int split = in_band == 0 ? row : (in_band == Cells::band - 1 ? high : low);
   int around[3];
-  const int n_around = columns_around(column, cells.columns, around);
-  for (int k = 0; k < n_around; ++k) {
-    const int base = around[k] * cells.rows;
-    const int end = w.cell_start[base + high + 1];
-    for (int j = w.cell_start[base + low]; j < end; j += width) {
+  const int n_around = columns_around(strip - band * cells.columns, cells.columns, around);
+  for (int run = 0; run < 2 * n_around; ++run) {
+    const bool second = run % 2 != 0;
+    const int column = around[run / 2], from = second ? split : low, to = second ? high : split - 1;
+    if (from > to) continue;
+    const int end = w.cell_start[cells.number(column, to) + 1];
+    for (int j = w.cell_start[cells.number(column, from)]; j < end; j += width) {
       const Lanes contact = touching + load(w.touching.data() + j);
       const Lanes dx = nearest_image<Lanes>(load(w.x.data() + j) - x, reach.length), dy = load(w.y.data() + j) - y;
       const Lanes d2 = dx * dx + dy * dy, far = contact + reach.skin;

@@ -8,13 +8,6 @@
 /// compiled once for each instruction set; which one runs is chosen when the program starts.
 namespace livebed::grains {
 
-/// Cells of at least one reach, numbered column by column.  The lowest and the highest row are open: a grain that flies
-/// far away costs no memory.
-struct Cells {
-  int columns, rows;
-  double width, height, bottom;
-};
-
 /// Contact forces on the grains of a slice [N]; the torque is twist times the radius.
 struct SliceForce {
   double x[lanes], y[lanes], twist[lanes];
@@ -22,9 +15,9 @@ struct SliceForce {
 
 struct Kernels {
   const char* name;  ///< of the instruction set
-  /// One step of the slices [begin, end) that are awake.  Returns true when a grain of them has left its half skin.
+  /// One step of the slices [begin, end) of Records::awake.  Returns true when a grain of them has left its half skin.
   bool (*step_slices)(const Sweep& k, Contacts& c, Records& r, int begin, int end);
-  /// Forces on a slice that does not move; histories go on by a step.
+  /// Forces on a slice that does not move.  What its contacts remember stays as it is.
   void (*push_slice)(const Sweep& k, Contacts& c, Records& r, int slice, SliceForce& force);
   /// Neighbours of the grains of ranks [begin, end) one after the other into `found`, where (end - begin) x
   /// most_neighbours have room, of each grain those close by first; where each begins and their numbers into w, one

@@ -22,14 +22,6 @@ namespace {
 constexpr int narrow_window = 64, wide_window = 256;
 int window_of(const State& s) { return s.sleep.asleep.empty() ? narrow_window : wide_window; }
 
-int column_of(const Cells& cells, double x) {
-  return std::clamp(static_cast<int>(x / cells.width), 0, cells.columns - 1);
-}
-int row_of(const Cells& cells, double y) {
-  return static_cast<int>(
-      std::clamp(std::floor((y - cells.bottom) / cells.height), 0.0, static_cast<double>(cells.rows - 1)));
-}
-
 void check_places(const State& s, double length) {
   for (int i = 0; i < s.count(); ++i) {
     if (!(std::isfinite(s.x[i]) && std::isfinite(s.y[i]) && std::isfinite(s.u[i]) && std::isfinite(s.v[i]) &&
@@ -48,25 +40,12 @@ void check_places(const State& s, double length) {
   }
 }
 
-Cells make_cells(const State& s, double reach, double length) {
-  if (length < 2 * reach) {
-    fail(Exit::invalid_case, "grains.length = {} m is too short: two reaches of the neighbour lists are {} m", length,
-         2 * reach);
-  }
-  const auto [low, high] = std::minmax_element(s.y.begin(), s.y.end());
-  // Not more cells than about two per grain: beyond that the top row is open.
-  const int columns = std::max(1, static_cast<int>(length / reach));
-  const double most_rows = 2.0 * s.count() / columns + 16;
-  const int rows = static_cast<int>(std::min((*high - *low) / reach + 1, most_rows));
-  return {columns, std::max(1, rows), length / columns, reach, *low};
-}
-
 /// Counting sort of the grains by cell; stable, so that the result depends on the state alone.
 void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch& w) {
-  const int n = s.count(), count = cells.columns * cells.rows;
+  const int n = s.count(), count = cells.count();
   std::fill(w.cell_start.begin(), w.cell_start.end(), 0);
   for (int i = 0; i < n; ++i) {
-    w.cell[i] = column_of(cells, s.x[i]) * cells.rows + row_of(cells, s.y[i]);
+    w.cell[i] = cells.number_of(s.x[i], s.y[i]);
     ++w.cell_start[w.cell[i] + 1];
   }
   std::partial_sum(w.cell_start.begin(), w.cell_start.end(), w.cell_start.begin());
@@ -84,8 +63,8 @@ void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch&
   }
 }
 
-/// The final order of one window of ranks: sleepers last, before them those found calm, then by the number of pairs
-/// close by, then of all pairs.  Slices then hold grains with equally long lists, few lanes idle, and one restless
+/// The final order of one window of ranks: sleepers last, by their places alone, before them those found calm; the
+/// others by the number of pairs close by, then of all pairs.  Slices then hold grains with equally long lists, few lanes idle, and one restless
 /// grain does not keep seven calm ones from falling asleep.
 void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
   std::int32_t by_all[wide_window], by_close[wide_window];
@@ -103,6 +82,7 @@ void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
     const auto awake = [&](std::int32_t rank) { return sleep.asleep[w.old_of_rank[rank]] == 0; };
     const auto restless = [&](std::int32_t rank) { return sleep.calm[w.old_of_rank[rank]] == 0; };
     std::int32_t* const sleepers = std::stable_partition(by_close, by_close + (end - begin), awake);
+    std::sort(sleepers, by_close + (end - begin));
     std::stable_partition(by_close, sleepers, restless);
   }
   std::copy_n(by_close, end - begin, &w.rank_of_new[begin]);
@@ -146,15 +126,6 @@ void reorder_all(State& s, ListScratch& w) {
     reorder(*a, w);
   }
   for (auto* a : {&s.id, &s.sleep.asleep, &s.sleep.calm}) reorder(*a, w);
-}
-
-/// The slot that grain i has for its neighbour j among `rows` rows from the first of its slice on; -1: it has none.
-std::ptrdiff_t find_slot(const Contacts& c, int i, int j, int rows) {
-  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[i / lanes]) * lanes + i % lanes;
-  for (int row = 0; row < rows; ++row)
-    if (c.neighbour[begin + static_cast<std::ptrdiff_t>(row) * lanes] == j)
-      return begin + static_cast<std::ptrdiff_t>(row) * lanes;
-  return -1;
 }
 
 /// Calls body(slot, i, j) once for every pair of a slice with a history.  Both sides keep the same one, but a sleeper's
@@ -204,9 +175,8 @@ void fit(Vector& a, std::size_t size) {
 /// Row numbers of every slice: as many as its longest list, of these as many at the front as pairs close by.
 void count_rows(const State& s, Contacts& c, const ListScratch& w, bool rolling) {
   const int n = s.count(), slices = (n + lanes - 1) / lanes;
-  c.first.resize(slices + 1);
-  c.first_apart.resize(slices);
-  c.first[0] = 0;
+  for (auto* a : {&c.first, &c.last, &c.first_apart}) a->resize(slices);
+  std::int32_t next = 0;
   for (int k = 0; k < slices; ++k) {
     int rows = 0, close = 0;
     for (int i = k * lanes; i < std::min(n, (k + 1) * lanes); ++i) {
@@ -220,10 +190,11 @@ void count_rows(const State& s, Contacts& c, const ListScratch& w, bool rolling)
       rows = std::max(rows, w.found_all[rank]);
       close = std::max(close, w.found_close[rank]);
     }
-    c.first_apart[k] = c.first[k] + close;
-    c.first[k + 1] = c.first[k] + rows;
+    c.first[k] = next;
+    c.first_apart[k] = next + close;
+    c.last[k] = next += rows;
   }
-  fit(c.neighbour, static_cast<std::size_t>(c.first[slices]) * lanes);
+  fit(c.neighbour, static_cast<std::size_t>(next) * lanes);
   fit(c.spring, c.neighbour.size());
   fit(c.rolling, rolling ? c.neighbour.size() : 0);
 }
@@ -231,7 +202,7 @@ void count_rows(const State& s, Contacts& c, const ListScratch& w, bool rolling)
 /// Rows of a slice: slot s of lane l is the s-th neighbour of that grain.
 void fill_rows(int slice, int n, int window, Contacts& c, const ListScratch& w) {
   const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
-  const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(c.first[slice + 1]) * lanes;
+  const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(c.last[slice]) * lanes;
   std::fill(c.neighbour.begin() + begin, c.neighbour.begin() + end, nobody(n));
   std::fill(c.spring.begin() + begin, c.spring.begin() + end, 0.0);
   if (!c.rolling.empty()) std::fill(c.rolling.begin() + begin, c.rolling.begin() + end, 0.0);
@@ -248,7 +219,7 @@ void fill_rows(int slice, int n, int window, Contacts& c, const ListScratch& w) 
 /// by.
 void carry_springs(int old_slice, Contacts& c, const ListScratch& w) {
   const auto put = [&](int i, int j, double spring, double rolling) {
-    const std::ptrdiff_t slot = find_slot(c, i, j, c.first_apart[i / lanes] - c.first[i / lanes]);
+    const std::ptrdiff_t slot = slot_of(c, i, j);
     if (slot < 0) return;
     c.spring[slot] = spring;
     if (!c.rolling.empty()) c.rolling[slot] = rolling;
@@ -284,26 +255,12 @@ void carry_wall_springs(const State& s, Contacts& c, ListScratch& w, const Reach
   }
 }
 
-std::uint8_t near_what(const State& s, int slice, const Reach& reach, double list_reach, const Circle& pipe) {
-  std::uint8_t near = 0;
-  for (int i = slice * lanes; i < std::min(s.count(), (slice + 1) * lanes); ++i) {
-    const double contact = 0.5 * reach.gamma * s.diameter[i] + reach.skin;
-    if (s.y[i] < contact + 0.5 * (reach.gamma - 1) * reach.floor_diameter) near |= near_floor;
-    const double d2 = square(nearest_image(pipe.x - s.x[i], reach.length)) + square(pipe.y - s.y[i]);
-    if (pipe.present && d2 < square(0.5 * pipe.diameter + contact)) near |= near_pipe;
-    // Farther from the seam than this, neither the grain nor a neighbour can cross it before the next lists.
-    const double seam = list_reach + reach.skin;
-    if (s.x[i] < seam || s.x[i] > reach.length - seam) near |= near_seam;
-  }
-  return near;
-}
-
 /// Which pieces of walls reach into which column of cells: those of column k are wall_in_column[wall_start[k]] and on.
 void sort_walls(const std::vector<Segment>& walls, const Cells& cells, double reach, ListScratch& w) {
   w.wall_start.assign(cells.columns + 1, 0);
   const auto columns_of = [&](const Segment& piece) {
     const auto [low, high] = std::minmax({piece.x, piece.x + piece.ex});
-    return std::pair{column_of(cells, std::max(0.0, low - reach)), column_of(cells, std::max(0.0, high + reach))};
+    return std::pair{cells.column_of(std::max(0.0, low - reach)), cells.column_of(std::max(0.0, high + reach))};
   };
   for (const Segment& piece : walls) {
     const auto [low, high] = columns_of(piece);
@@ -332,7 +289,7 @@ void list_walls(const State& s, Contacts& c, ListScratch& w, const Reach& reach,
   for (int slice = 0; slice < slices; ++slice) {
     const std::size_t begin = c.wall.size();
     for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
-      const int column = column_of(cells, s.x[i]);
+      const int column = cells.column_of(s.x[i]);
       std::size_t slot = begin + i % lanes;
       for (int k = w.wall_start[column]; k < w.wall_start[column + 1]; ++k) {
         const Segment& piece = walls[w.wall_in_column[k]];
@@ -366,6 +323,44 @@ void list_walls(const State& s, Contacts& c, ListScratch& w, const Reach& reach,
 
 }  // namespace
 
+int Cells::column_of(double x) const { return std::clamp(static_cast<int>(x / width), 0, columns - 1); }
+int Cells::row_of(double y) const {
+  return static_cast<int>(std::clamp(std::floor((y - bottom) / height), 0.0, static_cast<double>(rows - 1)));
+}
+
+Cells make_cells(const Array& y, int count, double reach, double length) {
+  if (length < 2 * reach) {
+    fail(Exit::invalid_case, "grains.length = {} m is too short: two reaches of the neighbour lists are {} m", length,
+         2 * reach);
+  }
+  const auto [low, high] = std::minmax_element(y.begin(), y.begin() + count);
+  // Not more cells than about two per grain: beyond that the top row is open.
+  const int columns = std::max(1, static_cast<int>(length / reach));
+  const double most_rows = 2.0 * count / columns + 16;
+  const int bands = static_cast<int>(std::min((*high - *low) / reach + 1, most_rows)) / Cells::band + 1;
+  return {columns, bands * Cells::band, length / columns, reach, *low};
+}
+
+std::uint8_t near_what(double x, double y, double diameter, const Reach& reach, double list_reach, const Circle& pipe) {
+  std::uint8_t near = 0;
+  const double contact = 0.5 * reach.gamma * diameter + reach.skin;
+  if (y < contact + 0.5 * (reach.gamma - 1) * reach.floor_diameter) near |= near_floor;
+  const double d2 = square(nearest_image(pipe.x - x, reach.length)) + square(pipe.y - y);
+  if (pipe.present && d2 < square(0.5 * pipe.diameter + contact)) near |= near_pipe;
+  // Farther from the seam than this, neither the grain nor a neighbour can cross it before it is listed anew.
+  const double seam = list_reach + reach.skin;
+  if (x < seam || x > reach.length - seam) near |= near_seam;
+  return near;
+}
+
+std::ptrdiff_t slot_of(const Contacts& c, int i, int j) {
+  const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(c.last[i / lanes]) * lanes;
+  for (std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(c.first[i / lanes]) * lanes + i % lanes; slot < end;
+       slot += lanes)
+    if (c.neighbour[slot] == j) return slot;
+  return -1;
+}
+
 void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Circle& pipe,
              const std::vector<Segment>& walls) {
   check_places(s, reach.length);
@@ -374,12 +369,12 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   if (n == 0) fail(Exit::invalid_case, "bed.count = 0: a bed needs at least one grain");
   const double largest = *std::max_element(s.diameter.begin(), s.diameter.end());
   const double list_reach = reach.gamma * largest + reach.skin;
-  const Cells cells = make_cells(s, list_reach, reach.length);
+  const Cells cells = make_cells(s.y, n, list_reach, reach.length);
   const std::size_t histories = c.built() ? count_histories(s, c, w) : 0;
   const std::size_t grains = n, padded = n + lanes;
   w.memory.divide<std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t,
                   double, double, double, std::int32_t, std::int32_t, std::int32_t, Remembered, double, double>(
-      {w.cell, grains}, {w.cell_start, static_cast<std::size_t>(cells.columns) * cells.rows + 1},
+      {w.cell, grains}, {w.cell_start, static_cast<std::size_t>(cells.count()) + 1},
       {w.old_of_rank, grains}, {w.old_of_new, grains}, {w.new_of_old, grains}, {w.rank_of_new, grains},
       {w.new_of_rank, grains}, {w.x, padded}, {w.y, padded}, {w.touching, padded}, {w.found_first, grains},
       {w.found_close, grains}, {w.found_all, grains}, {w.remembered, histories},
@@ -402,7 +397,9 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   c.near.resize(slices);
   base::for_each_item(0, slices, [&](int slice) {
     fill_rows(slice, n, window, c, w);
-    c.near[slice] = near_what(s, slice, reach, list_reach, pipe);
+    c.near[slice] = 0;
+    for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i)
+      c.near[slice] |= near_what(s.x[i], s.y[i], s.diameter[i], reach, list_reach, pipe);
   });
   if (histories > 0) base::for_each_item(0, old_slices, [&](int slice) { carry_springs(slice, c, w); });
   carry_wall_springs(s, c, w, reach);
@@ -412,7 +409,9 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
     std::copy(now->begin(), now->end(), built->begin());
   }
   c.pipe_built = pipe;
+  c.refreshed = 0;
   ++c.rebuilds;
+  w.grid.head.clear();
 }
 
 bool lists_hold(const State& s, const Contacts& c, const Reach& reach, const Circle& pipe) {
@@ -423,7 +422,9 @@ bool lists_hold(const State& s, const Contacts& c, const Reach& reach, const Cir
     return square(nearest_image(dx, reach.length)) + square(dy) <= limit;
   };
   if (!within(pipe.x - c.pipe_built.x, pipe.y - c.pipe_built.y)) return false;
+  const bool any_asleep = !s.sleep.asleep.empty();
   for (int i = 0; i < s.count(); ++i) {
+    if (any_asleep && s.sleep.asleep[i] != 0) continue;
     if (!within(s.x[i] - c.x_built[i], s.y[i] - c.y_built[i])) return false;
   }
   return true;
@@ -431,7 +432,7 @@ bool lists_hold(const State& s, const Contacts& c, const Reach& reach, const Cir
 
 std::vector<int> neighbours_of(const State& s, const Contacts& c, int grain) {
   std::vector<int> result;
-  for (int row = c.first[grain / lanes]; row < c.first[grain / lanes + 1]; ++row) {
+  for (int row = c.first[grain / lanes]; row < c.last[grain / lanes]; ++row) {
     const int other = c.neighbour[static_cast<std::size_t>(row) * lanes + grain % lanes];
     if (other < s.count()) result.push_back(other);
   }

@@ -11,7 +11,7 @@
 
 /// Who may touch whom until some grain has moved half a skin, and what each contact remembers.
 ///
-/// Grains are sorted by columns of cells, so that eight consecutive ones, a slice, are close together.  Every pair
+/// Grains are sorted by cells, so that eight consecutive ones, a slice, are close together.  Every pair
 /// stands in the lists of both its grains: a slice computes all forces on its grains by itself, and both sides of a
 /// contact go through the same arithmetic with the signs turned, so that their forces and histories are equal to the
 /// bit.
@@ -26,7 +26,7 @@ enum WallSlot : int { slot_floor = 0, slot_floor_odd = 1, slot_pipe = 2, wall_sl
 
 /// Lists and histories: everything beside State that a checkpoint must hold to go on with the same bits.
 struct Contacts {
-  std::vector<std::int32_t> first;        ///< slice k owns rows first[k] to first[k+1] of eight slots each
+  std::vector<std::int32_t> first, last;  ///< slice k owns rows first[k] to last[k] - 1 of eight slots each
   std::vector<std::int32_t> first_apart;  ///< from this row of a slice on no pair has touched since the lists exist
   base::AlignedVector<std::int32_t> neighbour;  ///< the other grain, row by row; nobody() where a lane has no more
   Array spring;                                 ///< e_s of the same slot [N]
@@ -38,12 +38,35 @@ struct Contacts {
   std::vector<std::int32_t> wall;              ///< as neighbour: index of the piece, -1 where a lane has no more
   Array piece_spring, piece_rolling;           ///< of the same slots [N], [N m]
   std::vector<std::uint8_t> near;              ///< of each slice, bits of Near
-  Array x_built, y_built;                      ///< centres when the lists were built, whole slices [m]
+  Array x_built, y_built;                      ///< centres when each grain was listed, whole slices [m]
   Circle pipe_built;                           ///< and the pipe
   std::int64_t rebuilds = 0;
+  std::int64_t refreshed = 0;  ///< grains listed anew one by one (refresh) since all were
 
   int slices() const { return static_cast<int>(near.size()); }
   bool built() const { return !first.empty(); }
+};
+
+/// Cells of at least one reach, numbered column by column within bands of some rows: what follows one another lies in a
+/// compact patch.  The lowest and the highest row are open: a grain that flies far away costs no memory.
+struct Cells {
+  static constexpr int band = 8;  ///< rows
+  int columns, rows;              ///< rows: whole bands
+  double width, height, bottom;
+
+  int count() const { return columns * rows; }
+  int column_of(double x) const;
+  int row_of(double y) const;
+  int number(int column, int row) const { return (row / band * columns + column) * band + row % band; }
+  int number_of(double x, double y) const { return number(column_of(x), row_of(y)); }
+};
+
+/// Which grains were listed in which cell: chains that change with every grain listed anew.
+struct Grid {
+  Cells cells;
+  double reach;                    ///< of the longest pair, skin included [m]
+  std::vector<std::int32_t> head;  ///< of each cell: the first of its grains, -1: none; empty: not filled
+  std::vector<std::int32_t> next;  ///< of each grain: the next one in its cell, -1: none
 };
 
 /// What a touching pair remembers while the lists are made anew.
@@ -69,6 +92,8 @@ struct ListScratch {
   std::array<Array, wall_slots> wall_spring_before, wall_rolling_before;
   std::vector<std::int32_t> wall_first_before, wall_before, wall_start, wall_in_column;
   Array piece_spring_before, piece_rolling_before;
+  Grid grid;                                ///< of refresh, since the last rebuild
+  std::vector<std::int32_t> moved, around;  ///< of refresh: grains out of their half skin; who is near one of them
 };
 
 /// A plane packing has about six; a grain with nearly that many lies on others.
@@ -106,8 +131,18 @@ inline Real nearest_image(const Real& dx, double length) {
 void rebuild(State& state, Contacts& contacts, ListScratch& scratch, const Reach& reach, const Circle& pipe,
              const std::vector<Segment>& walls = {});
 
+/// Cells of `reach` for grains at these heights.  Throws Fault (invalid case) for a box shorter than two reaches.
+Cells make_cells(const Array& y, int count, double reach, double length);
+
+/// What a grain at (x, y) may meet before it is listed anew, bits of Near but near_wall.  list_reach: of the longest
+/// pair.
+std::uint8_t near_what(double x, double y, double diameter, const Reach& reach, double list_reach, const Circle& pipe);
+
+/// The slot that grain i has for its neighbour j; -1: it has none.
+std::ptrdiff_t slot_of(const Contacts& c, int i, int j);
+
 /// True while the lists are complete: no grain and no pipe has moved more than half a skin since they were built.  Two
-/// grains outside each other's lists were then more than one skin apart and cannot have met.
+/// grains outside each other's lists were then more than one skin apart and cannot have met.  Sleepers do not move.
 bool lists_hold(const State& state, const Contacts& contacts, const Reach& reach, const Circle& pipe);
 
 /// The neighbours of one grain in the order of its list.

@@ -1,7 +1,6 @@
 #include "grains/sleep.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -31,17 +30,10 @@ base::Vec2 fluid_force(const FluidForce& f, int i) {
   return {f.fx[i] + f.beta[i] * f.u[i], f.fy[i] + f.beta[i] * f.v[i]};
 }
 
-/// The slot that grain i has for its neighbour j.
-std::ptrdiff_t slot_of(const Contacts& c, int i, int j) {
-  std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(c.first[i / lanes]) * lanes + i % lanes;
-  while (c.neighbour[slot] != j) slot += lanes;  // lists are mutual
-  return slot;
-}
-
 /// Calls body(slot, i, j) for every neighbour j of the grains i of a slice.
 template <class Body>
 void each_pair(const State& s, const Contacts& c, int slice, Body&& body) {
-  for (int row = c.first[slice]; row < c.first[slice + 1]; ++row) {
+  for (int row = c.first[slice]; row < c.last[slice]; ++row) {
     for (int l = 0; l < lanes; ++l) {
       const std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(row) * lanes + l;
       if (c.neighbour[slot] < s.count()) body(slot, slice * lanes + l, c.neighbour[slot]);
@@ -55,15 +47,11 @@ void copy_history(Contacts& c, std::ptrdiff_t from, std::ptrdiff_t to) {
   if (!c.rolling.empty()) c.rolling[to] = -c.rolling[from];
 }
 
-/// Takes over the histories of contacts with grains awake; false when there is none.
-bool take_histories(const State& s, Contacts& c, const Records& r, int slice) {
-  bool any = false;
+/// Takes over the histories of contacts with grains awake.
+void take_histories(const State& s, Contacts& c, const Records& r, int slice) {
   each_pair(s, c, slice, [&](std::ptrdiff_t slot, int i, int j) {
-    if (r.asleep[j / lanes] != 0) return;
-    copy_history(c, slot_of(c, j, i), slot);
-    any = true;
+    if (r.asleep[j / lanes] == 0) copy_history(c, slot_of(c, j, i), slot);
   });
-  return any;
 }
 
 /// Whether the contact forces on a sleeping slice have not been what they were for some looks.  While a grain sleeps,
@@ -102,7 +90,7 @@ double load_of(const Bed& bed, const Sweep& k, int i) {
   const Contacts& c = bed.contacts;
   const Place& own = bed.records.place[i];
   double pressed = 0;
-  for (int row = c.first[i / lanes]; row < c.first[i / lanes + 1]; ++row) {
+  for (int row = c.first[i / lanes]; row < c.last[i / lanes]; ++row) {
     const Place& other = bed.records.place[c.neighbour[static_cast<std::ptrdiff_t>(row) * lanes + i % lanes]];
     const double dx = nearest_image(other.x - own.x, k.reach.length), dy = other.y - own.y;
     pressed += k.pair.k_n * std::max(0.0, k.reach.gamma * (own.r + other.r) - std::hypot(dx, dy));
@@ -110,20 +98,10 @@ double load_of(const Bed& bed, const Sweep& k, int i) {
   return weight(bed.params, bed.state.diameter[i]) + 0.5 * pressed;
 }
 
-/// Whether the forces on every grain of the slice are in balance; keeps them.  Histories stay as they are.
+/// Whether the forces on every grain of the slice are in balance; keeps them.
 bool in_balance(Bed& bed, const Sweep& k, int slice) {
-  constexpr int most_rows = most_neighbours + lanes;
-  std::array<double, most_rows * lanes> springs, rolling;
-  Contacts& c = bed.contacts;
-  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
-  const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(c.first[slice + 1]) * lanes - begin;
-  std::copy_n(c.spring.begin() + begin, count, springs.begin());
-  if (!c.rolling.empty()) std::copy_n(c.rolling.begin() + begin, count, rolling.begin());
   SliceForce force;
-  kernels().push_slice(k, c, bed.records, slice, force);
-  std::copy_n(springs.begin(), count, c.spring.begin() + begin);
-  if (!c.rolling.empty()) std::copy_n(rolling.begin(), count, c.rolling.begin() + begin);
-
+  kernels().push_slice(k, bed.contacts, bed.records, slice, force);
   Sleep& z = bed.state.sleep;
   bool balance = true;
   each_grain(bed.state, slice, [&](int i) {
@@ -200,7 +178,7 @@ void spread_sleep(Bed& bed) {
   Records& r = bed.records;
   const int slices = bed.contacts.slices();
   r.asleep.assign(slices, 0);
-  if (s.sleep.asleep.empty()) return;
+  if (s.sleep.asleep.empty()) return list_awake(r);
   r.turn.assign(slices, 0);
   r.slept_from.assign(slices, bed.steps);
   base::for_each_item(0, slices, [&](int slice) {
@@ -225,24 +203,50 @@ void spread_sleep(Bed& bed) {
       s.sleep.asleep[i] = 0;
     });
   }
+  list_awake(r);
 }
 
 void wake_by_fluid(Bed& bed) {
   const State& s = bed.state;
   Records& r = bed.records;
-  base::for_each_item(0, bed.contacts.slices(), [&](int slice) {
+  const int slices = bed.contacts.slices();
+  const double limit_d3 = bed.params.sleep_drag * weight(bed.params, 1);
+  base::for_each_item(0, slices, [&](int slice) {
     r.turn[slice] = 0;
     if (r.asleep[slice] == 0) return;
     each_grain(s, slice, [&](int i) {
       const base::Vec2 now = fluid_force(s.fluid, i);
-      const double limit = bed.params.sleep_drag * weight(bed.params, s.diameter[i]);
+      const double limit = limit_d3 * base::cube(s.diameter[i]);
       r.turn[slice] |= square(now.x - s.sleep.fluid_x[i]) + square(now.y - s.sleep.fluid_y[i]) > square(limit);
     });
     if (r.turn[slice] != 0) take_histories(s, bed.contacts, r, slice);
   });
-  for (int slice = 0; slice < bed.contacts.slices(); ++slice)
-    if (r.turn[slice] != 0) wake(bed, slice);
+  bool any = false;
+  for (int slice = 0; slice < slices; ++slice) {
+    if (r.turn[slice] == 0) continue;
+    wake(bed, slice);
+    any = true;
+  }
+  if (any) list_awake(r);
 }
+
+namespace {
+
+/// Sleeping slices with a neighbour awake.
+void find_border(const State& s, const Contacts& c, Records& r) {
+  r.border.clear();
+  for (const std::int32_t slice : r.awake)
+    each_pair(s, c, slice, [&](std::ptrdiff_t, int, int j) {
+      const int other = j / lanes;
+      if (r.asleep[other] == 0 || r.turn[other] != 0) return;
+      r.turn[other] = 1;
+      r.border.push_back(other);
+    });
+  std::sort(r.border.begin(), r.border.end());
+  r.border_known = true;
+}
+
+}  // namespace
 
 void look(Bed& bed, const Sweep& k) {
   Records& r = bed.records;
@@ -250,24 +254,33 @@ void look(Bed& bed, const Sweep& k) {
   const double rest = bed.params.sleep_time * std::sqrt(bed.params.diameter / k.gravity) / looks_a_rest;
   const int steps_a_rest = between * std::max(1, static_cast<int>(std::lround(rest / (between * k.dt))));
   const bool may_fall = bed.steps % steps_a_rest == 0;
-  base::for_each_item(0, bed.contacts.slices(), [&](int slice) {
-    r.turn[slice] = 0;
-    if (r.asleep[slice] == 0 || !take_histories(bed.state, bed.contacts, r, slice)) return;
+  if (!r.border_known) find_border(bed.state, bed.contacts, r);
+  base::for_each_item(0, static_cast<int>(r.border.size()), [&](int n) {
+    const int slice = r.border[n];
+    take_histories(bed.state, bed.contacts, r, slice);
     SliceForce now;
     kernels().push_slice(k, bed.contacts, r, slice, now);
     r.turn[slice] = feels_change(bed, slice, now);
   });
-  // The forces on those awake are tried on their own histories, which the sleepers have read by now.
   if (may_fall) {
-    base::for_each_item(0, bed.contacts.slices(), [&](int slice) {
-      if (r.asleep[slice] != 0 || !looks_calm(bed, k, slice, steps_a_rest * k.dt)) return;
-      r.turn[slice] = (bed.contacts.near[slice] & near_pipe) == 0 && in_balance(bed, k, slice);
+    base::for_each_item(0, static_cast<int>(r.awake.size()), [&](int n) {
+      const int slice = r.awake[n];
+      r.turn[slice] = looks_calm(bed, k, slice, steps_a_rest * k.dt) && (bed.contacts.near[slice] & near_pipe) == 0 &&
+                      in_balance(bed, k, slice);
     });
   }
-  for (int slice = 0; slice < bed.contacts.slices(); ++slice) {
-    if (r.turn[slice] == 0) continue;
-    r.asleep[slice] != 0 ? wake(bed, slice) : fall_asleep(bed, k, slice);
-  }
+  bool any = false;
+  const auto turn_over = [&](const std::vector<std::int32_t>& slices, auto&& turn) {
+    for (const std::int32_t slice : slices) {
+      if (r.turn[slice] == 0) continue;
+      turn(slice);
+      r.turn[slice] = 0;
+      any = true;
+    }
+  };
+  turn_over(r.border, [&](int slice) { wake(bed, slice); });
+  if (may_fall) turn_over(r.awake, [&](int slice) { fall_asleep(bed, k, slice); });
+  if (any) list_awake(r);
 }
 
 void count_impulses(Bed& bed) {

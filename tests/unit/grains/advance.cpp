@@ -86,6 +86,7 @@ TEST(advance, saved_and_restored_bed_goes_on_with_the_same_bits) {
   restored.steps = unbroken.steps;
   restored.contacts.pipe_built = unbroken.contacts.pipe_built;
   restored.contacts.rebuilds = unbroken.contacts.rebuilds;
+  restored.contacts.refreshed = unbroken.contacts.refreshed;
   std::vector<std::vector<double>> saved;
   each_array(unbroken, [&](const char*, const auto& array) { saved.emplace_back(array.begin(), array.end()); });
   std::size_t k = 0;

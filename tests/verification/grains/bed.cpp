@@ -170,7 +170,7 @@ TEST(bed, both_sides_of_every_contact_remember_the_same_bits) {
   advance(bed, 200);
   const Contacts& c = bed.contacts;
   const auto spring = [&](int i, int j) {
-    for (int row = c.first[i / lanes]; row < c.first[i / lanes + 1]; ++row) {
+    for (int row = c.first[i / lanes]; row < c.last[i / lanes]; ++row) {
       const int slot = row * lanes + i % lanes;
       if (c.neighbour[slot] == j) return c.spring[slot];
     }
