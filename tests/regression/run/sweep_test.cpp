@@ -39,7 +39,7 @@ protected:
 };
 
 TEST_F(Sweep, gives_what_single_runs_give_and_is_kept) {
-  const Result first = run(sweep("--seeds 1,2 --set current.theta=0.2,0.33 --jobs 2 --threads 2"));
+  const Result first = run(sweep("--seeds 1,2 --set current.theta=0.2,0.33 --jobs 2"));
   ASSERT_EQ(first.exit, 0) << first.err;
   expect_contains(first.out, {"swept/sweep.csv", "swept/sweep.json", "swept/sweep.html"});
   expect_contains(first.err,
