@@ -19,6 +19,7 @@ void add_keys(CLI::App& app, Action& chosen);
 void add_watch(CLI::App& app, Action& chosen);
 void add_report(CLI::App& app, Action& chosen);
 void add_compare(CLI::App& app, Action& chosen);
+void add_sweep(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
 void add_validate(CLI::App& app, Action& chosen);
 

@@ -64,4 +64,15 @@ std::string hash(const Case& c) {
   return fmt::format("{:016x}", h);
 }
 
+std::vector<std::string> differences(const Case& a, const Case& b) {
+  const auto given = [](const Case& c, const Row& row) { return follows(c, row) ? "not given" : written(row.get(c)); };
+  std::vector<std::string> told;
+  for (const Row& row : schema()) {
+    if (row.derived) continue;
+    const std::string in_a = given(a, row), in_b = given(b, row);
+    if (in_a != in_b) told.push_back(fmt::format("{} = {}, not {}", row.name, in_a, in_b));
+  }
+  return told;
+}
+
 }  // namespace livebed::casefile

@@ -91,6 +91,13 @@ std::string svg(const Chart& chart) {
         data_x.take(curve.x[n]);
         data_y.take(height_of(chart.y, curve.y[n]));
       }
+  for (const Band& band : chart.bands)
+    for (std::size_t n = 0; n < band.x.size(); ++n)
+      for (double y : {band.low[n], band.high[n]})
+        if (drawable(chart.y, band.x[n], y)) {
+          data_x.take(band.x[n]);
+          data_y.take(height_of(chart.y, y));
+        }
   const Range rx = fitted(chart.x, data_x), ry = fitted(chart.y, data_y);
   const double width = chart.width - left - right;
   const double height =
@@ -102,11 +109,17 @@ std::string svg(const Chart& chart) {
       R"svg(<svg class="chart" viewBox="0 0 {} {:.0f}" width="{}" role="img" aria-label="{} against {}">)svg",
       chart.width, height + top + bottom, chart.width, escaped(chart.y.name), escaped(chart.x.name));
   out += R"svg(<g class="axis">)svg";
-  const Ticks tx = ticks(rx.from, rx.to, chart.width / 80);
-  for (double t : tx.places)
+  const auto mark_x = [&](double x, const std::string& label) {
     out += fmt::format(
-        R"svg(<path d="M{0:.1f} {1}V{2:.1f}"/><text x="{0:.1f}" y="{3:.1f}" text-anchor="middle">{4}</text>)svg", px(t),
-        top, top + height, top + height + 16, tx.text(t));
+        R"svg(<path d="M{0:.1f} {1}V{2:.1f}"/><text x="{0:.1f}" y="{3:.1f}" text-anchor="middle">{4}</text>)svg", px(x),
+        top, top + height, top + height + 16, escaped(label));
+  };
+  if (chart.x.words.empty()) {
+    const Ticks tx = ticks(rx.from, rx.to, chart.width / 80);
+    for (double t : tx.places) mark_x(t, tx.text(t));
+  } else {
+    for (std::size_t n = 0; n < chart.x.words.size(); ++n) mark_x(static_cast<double>(n), chart.x.words[n]);
+  }
   const Ticks ty = ticks(ry.from, ry.to, static_cast<int>(std::max(2.0, height / 45)));
   for (double t : ty.places) {
     if (chart.y.logarithmic && t != std::round(t)) continue;
@@ -123,6 +136,18 @@ std::string svg(const Chart& chart) {
   // An inner <svg> clips what leaves the frame.
   out += fmt::format(R"svg(<svg x="{0}" y="{1}" width="{2}" height="{3:.1f}" viewBox="{0} {1} {2} {3:.1f}">)svg", left,
                      top, width, height);
+  for (const Band& band : chart.bands) {
+    std::string there, back;  // along the upper edge and back along the lower one
+    for (std::size_t n = 0; n < band.x.size(); ++n) {
+      if (!drawable(chart.y, band.x[n], band.low[n]) || !drawable(chart.y, band.x[n], band.high[n])) continue;
+      there += fmt::format("{}{:.1f} {:.1f}", there.empty() ? "M" : "L", px(band.x[n]),
+                           py(height_of(chart.y, band.high[n])));
+      back = fmt::format("L{:.1f} {:.1f}", px(band.x[n]), py(height_of(chart.y, band.low[n]))) + back;
+    }
+    if (!there.empty())
+      out += fmt::format(R"svg(<path class="band" d="{}{}Z" fill="{}" fill-opacity="0.22"/>)svg", there, back,
+                         band.colour);
+  }
   for (const Curve& curve : chart.curves) {
     std::vector<std::pair<double, double>> points;
     for (std::size_t n = 0; n < curve.x.size(); ++n)
@@ -143,13 +168,13 @@ std::string svg(const Chart& chart) {
   out += "</svg></svg>";
 
   std::string legend;
+  const auto entry = [&](const char* kind, const std::string& colour, const std::string& name) {
+    if (!name.empty())
+      legend += fmt::format(R"svg(<span><i class="{}" style="--c:{}"></i>{}</span> )svg", kind, colour, escaped(name));
+  };
   for (const Curve& curve : chart.curves)
-    if (!curve.name.empty())
-      legend += fmt::format(R"svg(<span><i class="{}" style="--c:{}"></i>{}</span> )svg",
-                            curve.dots     ? "dot"
-                            : curve.dashed ? "dash"
-                                           : "line",
-                            curve.colour, escaped(curve.name));
+    entry(curve.dots ? "dot" : curve.dashed ? "dash" : "line", curve.colour, curve.name);
+  for (const Band& band : chart.bands) entry("band", band.colour, band.name);
   return legend.empty() ? out : out + "<div class=\"legend\">" + legend + "</div>";
 }
 

@@ -30,6 +30,23 @@ TEST(chart, points_land_where_the_axes_say) {
   EXPECT_NE(text.find(R"(cx="174.0" cy="12.0")"), std::string::npos);
 }
 
+TEST(chart, a_band_fills_what_lies_between_its_edges_and_belongs_to_the_range) {
+  Chart chart{{"x", 0, 10}, {"y", 0, 1}, {}, 188, 156};
+  chart.bands = {{"seeds", "red", {0, 5, 10}, {0, 0.25, 0.5}, {0.5, NAN, 1}}};
+  const std::string text = svg(chart);  // the point without an upper edge is left out
+  EXPECT_NE(text.find(R"(d="M74.0 62.0L174.0 12.0L174.0 62.0L74.0 112.0Z")"), std::string::npos) << text;
+  EXPECT_NE(text.find(R"(<i class="band" style="--c:red"></i>seeds)"), std::string::npos);
+}
+
+TEST(chart, words_stand_on_an_axis_without_numbers) {
+  Chart chart{{"law", -1, 3}, {"y", 0, 1}, {{"", "red", {0, 1, 2}, {0, 0.5, 1}, true}}, 188, 156};
+  chart.x.words = {"paper", "a<b", "rong"};
+  const std::string text = svg(chart);
+  EXPECT_NE(text.find(R"(x="99.0" y="128.0" text-anchor="middle">paper<)"), std::string::npos) << text;
+  EXPECT_NE(text.find("a&lt;b"), std::string::npos);
+  EXPECT_EQ(text.find(">1.5<"), std::string::npos);
+}
+
 TEST(chart, the_same_chart_is_the_same_text) {
   const Chart chart{{"x"}, {"y"}, {{"a", "red", {0, 1}, {0, 1}}}};
   EXPECT_EQ(svg(chart), svg(chart));
