@@ -56,7 +56,7 @@ const std::vector<Choice>& choices() {
                                         {"contact.wall_factor", "2", "2"},
                                         {"contact.tension", "spring", "none"},
                                         {"contact.friction_limit", "spring", "total"},
-                                        {"contact.rolling_friction", "0", "0.2"},
+                                        {"contact.rolling_friction", "0", "0.25"},
                                         {"time.grain_step", "1e-5", "1e-5"},
                                         {"coupling.mode", "two-way", "two-way"},
                                         {"coupling.exchange", "lagged", "implicit"},
@@ -67,7 +67,7 @@ const std::vector<Choice>& choices() {
                                         {"coupling.lift", "none", "saffman_mei"},
                                         {"coupling.turbulence", "untouched", "bounded"},
                                         {"coupling.dispersion", "none", "random_walk"},
-                                        {"coupling.dispersion_energy", "1", "2"},
+                                        {"coupling.dispersion_energy", "1", "2.2"},
                                         {"coupling.kernel", "2", "0.6"}};
   return rows;
 }
