@@ -9,7 +9,8 @@
 namespace livebed::app {
 namespace {
 
-/// Text as mdoc takes it: no line is a command, a backslash and a hyphen are what they look like.
+/// Text as mdoc takes it: no line is a command, each sentence begins one, a backslash and a hyphen are what they look
+/// like.
 std::string plain(const std::string& text) {
   std::string out;
   for (char c : text) {
@@ -17,6 +18,8 @@ std::string plain(const std::string& text) {
       out += "\\e";
     else if (c == '-')
       out += "\\-";
+    else if (c == ' ' && out.ends_with('.'))
+      out += '\n';
     else
       out += c;
   }
