@@ -51,8 +51,7 @@ void add_keys(CLI::App& app, Action& chosen) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("keys", "list every key of a case file with its default, range and meaning");
-  verb->add_option("--preset", options->preset, "whose defaults: " + casefile::listed(casefile::presets()))
-      ->check(CLI::IsMember(casefile::presets()));
+  verb->add_option("--preset", options->preset, "whose defaults")->check(CLI::IsMember(casefile::presets()));
   CLI::Option* json = verb->add_flag("--json", options->json, "as JSON");
   verb->add_flag("--markdown", options->markdown, "as docs/keys.md, both presets")->excludes(json);
   verb->callback([options, &chosen] {

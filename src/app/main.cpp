@@ -3,14 +3,13 @@
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <string>
 #include <vector>
 
 #include "app/verbs.hpp"
+#include "app/version_text.hpp"
 #include "base/fault.hpp"
 #include "base/loops.hpp"
-#include "base/version.hpp"
 #include "case/faults.hpp"
 #include "grains/kernels.hpp"
 
@@ -33,8 +32,7 @@ int run(int argc, char** argv) {
   using namespace livebed;
   CLI::App program{"Scour of a sand bed under a pipeline: a turbulent current on a grid, the bed grain by grain."};
   program.name("livebed");
-  program.set_version_flag("--version",
-                           fmt::format("livebed {} ({}, {})", base::version(), base::commit(), base::compiler()));
+  program.set_version_flag("--version", app::version_text);
   program.require_subcommand(1);
   program.fallthrough();
   int threads = 1;  // small cases are faster on one: docs/performance.md
@@ -47,8 +45,10 @@ int run(int argc, char** argv) {
   program
       .add_option(
           "--kernels", kernels,
-          fmt::format("instruction set of the grain loop ({}): {}", kernels, fmt::join(grains::kernel_names(), ", ")))
+          "instruction set of the grain loop: avx512, avx2 or plain; without it the widest that this machine has")
       ->envname("LIVEBED_KERNELS");
+  bool parse_only = false;
+  program.add_flag("--parse-only", parse_only, "read the command line, tell what is wrong with it and do nothing else");
 
   app::Action chosen;
   app::add_new(program, chosen);
@@ -62,6 +62,8 @@ int run(int argc, char** argv) {
   app::add_sweep(program, chosen);
   app::add_bench(program, chosen);
   app::add_validate(program, chosen);
+  app::add_completion(program, chosen);
+  app::add_man(program, chosen);
 
   try {
     program.parse(argc, argv);
@@ -69,6 +71,7 @@ int run(int argc, char** argv) {
     tell_unknown_verb(program, argc, argv);
     return static_cast<int>(program.exit(error) == 0 ? Exit::ok : Exit::command_line);
   }
+  if (parse_only) return static_cast<int>(Exit::ok);
   base::set_threads(threads);
   grains::use_kernels(kernels);
   return static_cast<int>(chosen());

@@ -22,5 +22,7 @@ void add_compare(CLI::App& app, Action& chosen);
 void add_sweep(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
 void add_validate(CLI::App& app, Action& chosen);
+void add_completion(CLI::App& app, Action& chosen);
+void add_man(CLI::App& app, Action& chosen);
 
 }  // namespace livebed::app

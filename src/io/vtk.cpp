@@ -18,8 +18,8 @@ using base::fail;
 namespace {
 
 /// VTK's name for the time of a file, in its field data.
-std::string time_element(AppendedWriter& out, double time) {
-  return "<FieldData>\n" + out.element({"TimeValue", 1, Store::float64, {time}}, " NumberOfTuples=\"1\"") +
+std::string time_element(double time) {
+  return "<FieldData>\n" + element({"TimeValue", 1, Store::float64, {time}}, " NumberOfTuples=\"1\"") +
          "</FieldData>\n";
 }
 
@@ -32,10 +32,9 @@ std::vector<double> with_zero(const std::vector<double>& x, const std::vector<do
 }
 
 /// offsets and connectivity of the cells of a poly data set.
-std::string topology(AppendedWriter& out, std::string_view kind, std::vector<double> connectivity,
-                     std::vector<double> offsets) {
-  return fmt::format("<{}>\n{}{}</{}>\n", kind, out.element({"connectivity", 1, Store::int32, std::move(connectivity)}),
-                     out.element({"offsets", 1, Store::int32, std::move(offsets)}), kind);
+std::string topology(std::string_view kind, std::vector<double> connectivity, std::vector<double> offsets) {
+  return fmt::format("<{}>\n{}{}</{}>\n", kind, element({"connectivity", 1, Store::int32, std::move(connectivity)}),
+                     element({"offsets", 1, Store::int32, std::move(offsets)}), kind);
 }
 
 }  // namespace
@@ -119,26 +118,24 @@ Points circle_line(double x, double y, double diameter) {
 
 void write_vtr(const Path& path, const Grid& grid) {
   const std::size_t cells = static_cast<std::size_t>(grid.nx()) * static_cast<std::size_t>(grid.ny());
-  AppendedWriter out;
   const std::string extent = fmt::format("0 {} 0 {} 0 0", grid.nx(), grid.ny());
-  std::string body = fmt::format("<RectilinearGrid WholeExtent=\"{}\">\n", extent) + time_element(out, grid.time) +
+  std::string body = fmt::format("<RectilinearGrid WholeExtent=\"{}\">\n", extent) + time_element(grid.time) +
                      fmt::format("<Piece Extent=\"{}\">\n<CellData>\n", extent);
   for (const DataArray& a : grid.cells) {
     if (a.values.size() != cells * static_cast<std::size_t>(a.components))
       fail(Exit::internal, "{}: {} has {} values for {} cells", path.string(), a.name, a.values.size(), cells);
-    body += out.element(a);
+    body += element(a);
   }
-  body += "</CellData>\n<Coordinates>\n" + out.element({"x", 1, Store::float64, grid.x}) +
-          out.element({"y", 1, Store::float64, grid.y}) + out.element({"z", 1, Store::float64, {0.0}}) +
+  body += "</CellData>\n<Coordinates>\n" + element({"x", 1, Store::float64, grid.x}) +
+          element({"y", 1, Store::float64, grid.y}) + element({"z", 1, Store::float64, {0.0}}) +
           "</Coordinates>\n</Piece>\n</RectilinearGrid>\n";
-  write_atomically(path, out.file("RectilinearGrid", body));
+  write_atomically(path, xml_file("RectilinearGrid", body));
 }
 
 void write_vtp(const Path& path, const Points& points) {
   const std::size_t n = points.x.size();
-  AppendedWriter out;
   const bool line = points.shape == Shape::closed_line;
-  std::string body = "<PolyData>\n" + time_element(out, points.time) +
+  std::string body = "<PolyData>\n" + time_element(points.time) +
                      fmt::format(
                          "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
                          "NumberOfPolys=\"0\">\n<PointData>\n",
@@ -146,25 +143,25 @@ void write_vtp(const Path& path, const Points& points) {
   for (const DataArray& a : points.data) {
     if (a.values.size() != n * static_cast<std::size_t>(a.components))
       fail(Exit::internal, "{}: {} has {} values for {} points", path.string(), a.name, a.values.size(), n);
-    body += out.element(a);
+    body += element(a);
   }
-  body += "</PointData>\n<Points>\n" + out.element({"points", 3, Store::float32, with_zero(points.x, points.y)}) +
+  body += "</PointData>\n<Points>\n" + element({"points", 3, Store::float32, with_zero(points.x, points.y)}) +
           "</Points>\n";
   std::vector<double> corners(n);
   std::iota(corners.begin(), corners.end(), 0.0);
   if (line) {
     corners.push_back(0.0);
-    body += topology(out, "Lines", corners, {static_cast<double>(n + 1)});
+    body += topology("Lines", corners, {static_cast<double>(n + 1)});
   } else {
     std::vector<double> ends(n);
     std::iota(ends.begin(), ends.end(), 1.0);
-    body += topology(out, "Verts", corners, ends);
+    body += topology("Verts", corners, ends);
   }
-  write_atomically(path, out.file("PolyData", body + "</Piece>\n</PolyData>\n"));
+  write_atomically(path, xml_file("PolyData", body + "</Piece>\n</PolyData>\n"));
 }
 
 Grid read_vtr(const Path& path) {
-  const AppendedReader in(path, "RectilinearGrid");
+  const XmlReader in(path, "RectilinearGrid");
   Grid grid;
   grid.time = in.array("FieldData", "TimeValue").values.at(0);
   grid.x = in.array("Coordinates", "x").values;
@@ -178,7 +175,7 @@ Grid read_vtr(const Path& path) {
 }
 
 Points read_vtp(const Path& path) {
-  const AppendedReader in(path, "PolyData");
+  const XmlReader in(path, "PolyData");
   Points points;
   points.time = in.array("FieldData", "TimeValue").values.at(0);
   const DataArray triples = in.array("Points", "points");

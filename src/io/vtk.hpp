@@ -8,8 +8,8 @@
 #include "grains/state.hpp"
 #include "io/file.hpp"
 
-/// ParaView files: .vtr (the flow's grid), .vtp (grains, pipe), .pvd (time series).  VTK XML with appended,
-/// zlib-compressed data; single precision for results, double for coordinates and times.  Faults (input/output) name
+/// ParaView files: .vtr (the flow's grid), .vtp (grains, pipe), .pvd (time series).  VTK XML with zlib-compressed data
+/// in base64; single precision for results, double for coordinates and times.  Faults (input/output) name
 /// the file.
 namespace livebed::io {
 

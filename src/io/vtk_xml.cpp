@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
+#include <optional>
 #include <zlib.h>
 
 #include "base/fault.hpp"
+#include "io/base64.hpp"
 
 namespace livebed::io {
 
@@ -70,8 +72,12 @@ void append(std::string& bytes, std::uint64_t number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
 }
 
-/// vtkZLibDataCompressor: number of blocks, block size, size of a partial last block (0 = none), compressed sizes,
-/// blocks.
+/// Bytes before the sizes of the blocks.
+constexpr std::size_t head_size = 3 * sizeof(std::uint64_t);
+std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
+
+/// vtkZLibDataCompressor: number of blocks, block size, size of a partial last block (0 = none), compressed sizes;
+/// then, as a text of their own, the blocks.
 std::string compressed(const std::string& raw) {
   const std::uint64_t blocks = (raw.size() + block_size - 1) / block_size;
   std::string head, body;
@@ -88,7 +94,7 @@ std::string compressed(const std::string& raw) {
     append(head, length);
     body.append(part, 0, length);
   }
-  return head + body;
+  return base64(head) + base64(body);
 }
 
 std::map<std::string, std::string> parse_attributes(std::string_view tag) {
@@ -106,87 +112,124 @@ std::map<std::string, std::string> parse_attributes(std::string_view tag) {
 
 }  // namespace
 
-std::string AppendedWriter::element(const DataArray& array, const std::string& extra) {
-  std::string text =
-      fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}"{} format="appended" offset="{}"/>)",
-                  vtk_name(array.store), array.name, array.components, extra, block_.size());
-  block_ += compressed(packed(array));
-  return text + "\n";
-}
-
-std::string AppendedWriter::file(std::string_view type, std::string_view body) const {
+std::string element(const DataArray& array, const std::string& extra) {
   return fmt::format(
-             "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" "
-             "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n{}<AppendedData encoding=\"raw\">\n_",
-             type, body) +
-         block_ + "\n</AppendedData>\n</VTKFile>\n";
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">\n{}\n</DataArray>\n",
+      vtk_name(array.store), array.name, array.components, extra, compressed(packed(array)));
 }
 
-AppendedReader::AppendedReader(const Path& path, std::string_view type) : path_(path), bytes_(read_file(path)) {
+std::string xml_file(std::string_view type, std::string_view body) {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n{}</VTKFile>\n",
+      type, body);
+}
+
+XmlReader::XmlReader(const Path& path, std::string_view type) : path_(path), bytes_(read_file(path)) {
   constexpr std::string_view mark = "<AppendedData encoding=\"raw\">\n_";
-  const std::string_view all = bytes_;
-  const auto at = all.find(mark);
-  if (at == all.npos || all.substr(0, at).find(fmt::format("<VTKFile type=\"{}\"", type)) == all.npos)
+  xml_ = bytes_;
+  if (const auto at = xml_.find(mark); at != xml_.npos) {
+    block_ = xml_.substr(at + mark.size());
+    xml_ = xml_.substr(0, at);
+  }
+  const auto start = xml_.find(fmt::format("<VTKFile type=\"{}\"", type));
+  if (start == xml_.npos || xml_.find("compressor=\"vtkZLibDataCompressor\"", start) == xml_.npos)
     fault(fmt::format("is not a {} file written by this program", type));
-  xml_ = all.substr(0, at);
-  block_ = all.substr(at + mark.size());
 }
 
-void AppendedReader::fault(const std::string& what) const { fail(Exit::input_output, "{} {}", path_.string(), what); }
+void XmlReader::fault(const std::string& what) const { fail(Exit::input_output, "{} {}", path_.string(), what); }
 
-std::map<std::string, std::string> AppendedReader::attributes(std::string_view element) const {
+std::map<std::string, std::string> XmlReader::attributes(std::string_view element) const {
   const auto start = xml_.find(fmt::format("<{} ", element));
   if (start == xml_.npos) fault(fmt::format("has no element {}", element));
   return parse_attributes(xml_.substr(start, xml_.find('>', start) - start));
 }
 
-std::vector<DataArray> AppendedReader::arrays(std::string_view section) const {
+std::vector<DataArray> XmlReader::arrays(std::string_view section) const {
   std::vector<DataArray> found;
   auto start = xml_.find(fmt::format("<{}>", section));
   if (start == xml_.npos) return found;
   const std::string_view inside = xml_.substr(start, xml_.find(fmt::format("</{}>", section), start) - start);
-  for (auto at = inside.find("<DataArray "); at != inside.npos; at = inside.find("<DataArray ", at + 1))
-    found.push_back(decode(parse_attributes(inside.substr(at, inside.find('>', at) - at))));
+  for (auto at = inside.find("<DataArray "); at != inside.npos; at = inside.find("<DataArray ", at + 1)) {
+    const auto end = std::min(inside.find('>', at), inside.size());
+    const std::string_view content = inside.substr(std::min(end + 1, inside.size()));
+    found.push_back(
+        decode(parse_attributes(inside.substr(at, end - at)), content.substr(0, content.find("</DataArray>"))));
+  }
   return found;
 }
 
-DataArray AppendedReader::array(std::string_view section, std::string_view name) const {
+DataArray XmlReader::array(std::string_view section, std::string_view name) const {
   auto all = arrays(section);
   for (auto& one : all)
     if (one.name == name) return std::move(one);
   fault(fmt::format("has no array {} in {}", name, section));
 }
 
-DataArray AppendedReader::decode(const std::map<std::string, std::string>& attributes) const {
-  const auto value = [&](const std::string& key) {
-    const auto found = attributes.find(key);
-    if (found == attributes.end()) fault("has an array without " + key);
-    return found->second;
-  };
-  const auto number = [&](const std::string& key) {
-    const std::string text = value(key);
-    std::uint64_t result = 0;
-    if (std::from_chars(text.data(), text.data() + text.size(), result).ec != std::errc{})
-      fault(fmt::format("has an array with {} = {}", key, text));
-    return result;
-  };
-  DataArray array;
-  array.name = value("Name");
-  array.components = static_cast<int>(number("NumberOfComponents"));
-  const std::string type = value("type");
-  array.store = type == "Float64" ? Store::float64 : type == "Int32" ? Store::int32 : Store::float32;
-  if (type != vtk_name(array.store)) fault(fmt::format("has an array {} of type {}", array.name, type));
+namespace {
 
-  std::uint64_t at = number("offset");
+const std::string& value_of(const std::map<std::string, std::string>& attributes, const char* key) {
+  static const std::string none;
+  const auto found = attributes.find(key);
+  return found == attributes.end() ? none : found->second;
+}
+
+std::optional<std::uint64_t> whole_number(const std::string& text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
+
+std::string XmlReader::packed_bytes(const std::map<std::string, std::string>& attributes,
+                                    std::string_view content) const {
+  const std::string& name = value_of(attributes, "Name");
+  if (value_of(attributes, "format") == "appended") {
+    const auto offset = whole_number(value_of(attributes, "offset"));
+    if (!offset) fault(fmt::format("has an array {} with offset = {}", name, value_of(attributes, "offset")));
+    return std::string(block_.substr(std::min<std::uint64_t>(*offset, block_.size())));
+  }
+  // The head says how long it is, and ends in a text of its own.
+  const auto from = content.find_first_not_of(" \n"), to = content.find_last_not_of(" \n");
+  if (from == content.npos) fault(fmt::format("ends inside the array {}", name));
+  content = content.substr(from, to - from + 1);
+  const auto decoded = [&](std::string_view text) {
+    std::optional<std::string> bytes = from_base64(text);
+    if (!bytes) fault(fmt::format("{} the array {}", text.size() % 4 == 0 ? "is damaged in" : "ends inside", name));
+    return *bytes;
+  };
+  const std::string start = decoded(content.substr(0, base64_size(head_size)));
+  std::uint64_t blocks = 0;
+  if (start.size() < head_size) fault(fmt::format("ends inside the array {}", name));
+  std::memcpy(&blocks, start.data(), sizeof blocks);
+  if (blocks > content.size()) fault(fmt::format("is damaged in the array {}", name));
+  const std::size_t head = base64_size(head_size + blocks * sizeof blocks);
+  if (head > content.size()) fault(fmt::format("ends inside the array {}", name));
+  return decoded(content.substr(0, head)) + decoded(content.substr(head));
+}
+
+DataArray XmlReader::decode(const std::map<std::string, std::string>& attributes, std::string_view content) const {
+  DataArray array;
+  array.name = value_of(attributes, "Name");
+  const auto components = whole_number(value_of(attributes, "NumberOfComponents"));
+  const std::string& type = value_of(attributes, "type");
+  array.store = type == "Float64" ? Store::float64 : type == "Int32" ? Store::int32 : Store::float32;
+  if (array.name.empty() || !components) fault("has an array without name or components");
+  if (type != vtk_name(array.store)) fault(fmt::format("has an array {} of type {}", array.name, type));
+  array.components = static_cast<int>(*components);
+
+  const std::string bytes = packed_bytes(attributes, content);
+  std::uint64_t at = 0;
   const auto next = [&] {
     std::uint64_t result = 0;
-    if (at + sizeof(result) > block_.size()) fault(fmt::format("ends inside the array {}", array.name));
-    std::memcpy(&result, block_.data() + at, sizeof(result));
+    if (at + sizeof(result) > bytes.size()) fault(fmt::format("ends inside the array {}", array.name));
+    std::memcpy(&result, bytes.data() + at, sizeof(result));
     at += sizeof(result);
     return result;
   };
   const std::uint64_t blocks = next(), size = next(), last = next();
-  if (blocks > block_.size() / sizeof(blocks) || size > largest_block || last >= std::max<std::uint64_t>(size, 1))
+  if (blocks > bytes.size() / sizeof(blocks) || size > largest_block || last >= std::max<std::uint64_t>(size, 1))
     fault(fmt::format("is damaged in the array {}", array.name));
   std::vector<std::uint64_t> sizes(blocks);
   for (auto& s : sizes) s = next();
@@ -195,10 +238,10 @@ DataArray AppendedReader::decode(const std::map<std::string, std::string>& attri
     uLongf length = b + 1 == blocks && last > 0 ? last : size;
     const std::size_t from = raw.size(), expected = length;
     raw.resize(from + expected);
-    if (sizes[b] > block_.size() || at + sizes[b] > block_.size())
+    if (sizes[b] > bytes.size() || at + sizes[b] > bytes.size())
       fault(fmt::format("ends inside the array {}", array.name));
     if (uncompress(reinterpret_cast<Bytef*>(raw.data() + from), &length,
-                   reinterpret_cast<const Bytef*>(block_.data() + at), sizes[b]) != Z_OK ||
+                   reinterpret_cast<const Bytef*>(bytes.data() + at), sizes[b]) != Z_OK ||
         length != expected)
       fault(fmt::format("is damaged in the array {}", array.name));
     at += sizes[b];

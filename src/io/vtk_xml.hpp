@@ -6,25 +6,19 @@
 
 #include "io/vtk.hpp"
 
-/// The container of VTK's XML files: elements whose arrays live in one appended, zlib-compressed block.
+/// The container of VTK's XML files: elements with zlib-compressed arrays in base64.  Other files of VTK have them in
+/// one raw block at the end, which readers of VTK with an expat of 2024 on no longer find (Debian 12's among them).
 namespace livebed::io {
 
-/// Collects the appended block while the XML in front of it is written.
-class AppendedWriter {
-public:
-  /// Compresses the array, appends it and returns its <DataArray .../> element.  extra: further attributes.
-  std::string element(const DataArray& array, const std::string& extra = "");
-  /// The whole file: type is VTK's name of the data set, body the XML inside <VTKFile>.
-  std::string file(std::string_view type, std::string_view body) const;
+/// The <DataArray ...> element of an array.  extra: further attributes.
+std::string element(const DataArray& array, const std::string& extra = "");
+/// The whole file: type is VTK's name of the data set, body the XML inside <VTKFile>.
+std::string xml_file(std::string_view type, std::string_view body);
 
-private:
-  std::string block_;
-};
-
-/// Finds elements and arrays in a file made by AppendedWriter.
-class AppendedReader {
+/// Finds elements and arrays in a file made by the above, or by versions of this program that wrote a raw block.
+class XmlReader {
 public:
-  AppendedReader(const Path& path, std::string_view type);
+  XmlReader(const Path& path, std::string_view type);
 
   /// Attributes of the first element of this name; Fault when missing.
   std::map<std::string, std::string> attributes(std::string_view element) const;
@@ -35,12 +29,14 @@ public:
 
 private:
   [[noreturn]] void fault(const std::string& what) const;
-  DataArray decode(const std::map<std::string, std::string>& attributes) const;
+  DataArray decode(const std::map<std::string, std::string>& attributes, std::string_view content) const;
+  /// Head and blocks of an array as bytes; what follows them does not matter.
+  std::string packed_bytes(const std::map<std::string, std::string>& attributes, std::string_view content) const;
 
   Path path_;
   std::string bytes_;
-  std::string_view xml_;    ///< up to the appended block
-  std::string_view block_;  ///< behind its underscore
+  std::string_view xml_;    ///< the whole file, or what is before its raw block
+  std::string_view block_;  ///< behind the underscore of that block
 };
 
 }  // namespace livebed::io

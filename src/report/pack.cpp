@@ -72,17 +72,4 @@ std::string deflated(std::string_view bytes) {
   return out;
 }
 
-std::string base64(std::string_view bytes) {
-  constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t n = 0; n < bytes.size(); n += 3) {
-    std::uint32_t triple = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      triple = triple << 8 | (n + k < bytes.size() ? static_cast<std::uint8_t>(bytes[n + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += n + k > bytes.size() ? '=' : letters[triple >> (18 - 6 * k) & 63];
-  }
-  return out;
-}
-
 }  // namespace livebed::report

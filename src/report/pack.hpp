@@ -36,6 +36,5 @@ private:
 
 /// Compressed by zlib.
 std::string deflated(std::string_view bytes);
-std::string base64(std::string_view bytes);
 
 }  // namespace livebed::report

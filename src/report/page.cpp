@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "io/base64.hpp"
 #include "report/chart.hpp"
 #include "report/pack.hpp"
 
 namespace livebed::report {
 
 std::string frozen(std::string_view name, std::string_view bytes) {
-  return fmt::format("<script type=\"text/plain\" data-name=\"{}\">{}</script>\n", name, base64(deflated(bytes)));
+  return fmt::format("<script type=\"text/plain\" data-name=\"{}\">{}</script>\n", name, io::base64(deflated(bytes)));
 }
 
 std::string page(std::string_view title, const nlohmann::ordered_json& settings, std::string_view frozen_data,

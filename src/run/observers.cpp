@@ -7,6 +7,7 @@
 #include "base/approach.hpp"
 #include "grains/sleep.hpp"
 #include "io/file.hpp"
+#include "io/paraview.hpp"
 
 namespace livebed::run {
 
@@ -49,6 +50,7 @@ Observers::Observers(const std::filesystem::path& folder, const Simulation& sim,
   io::make_folder(folder / "fields");
   io::make_folder(folder / "grains");
   io::make_folder(folder / "checkpoints");
+  if (progress.frames == 0) io::write_atomically(folder / "paraview-state.py", io::paraview_state(folder));
   if (progress.frames == 0 && sim.resolved().flow.pipe.present) {
     const flow::PipeParams& pipe = sim.resolved().flow.pipe;
     io::write_vtp(folder / "pipe.vtp", io::circle_line(pipe.x, pipe.y, pipe.diameter));

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "expect_fault.hpp"
+#include "io/base64.hpp"
 #include "temporary_folder.hpp"
 
 namespace livebed::io {
@@ -187,6 +188,36 @@ TEST(vtk, no_grains_is_a_valid_file_for_us) {
   const TemporaryFolder folder;
   write_vtp(folder / "none.vtp", grain_points(grains::State{}, 1));
   EXPECT_TRUE(read_vtp(folder / "none.vtp").x.empty());
+}
+
+/// The same file as the first versions of the program wrote it: all arrays in one raw block at the end.
+std::string with_raw_block(std::string text) {
+  std::string block;
+  for (auto at = text.find(" format=\"binary\">\n"); at != text.npos; at = text.find(" format=\"binary\">\n", at)) {
+    const auto from = text.find('\n', at) + 1, to = text.find('\n', from);
+    // One block an array: its head of 32 bytes is a text of 44 letters.
+    const std::string packed =
+        *from_base64(text.substr(from, 44)) + *from_base64(text.substr(from + 44, to - from - 44));
+    text.replace(at, text.find("</DataArray>", to) + 12 - at,
+                 " format=\"appended\" offset=\"" + std::to_string(block.size()) + "\"/>");
+    block += packed;
+  }
+  text.resize(text.rfind("</VTKFile>"));
+  return text + "<AppendedData encoding=\"raw\">\n_" + block + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+TEST(vtk, files_with_a_raw_block_are_read_too) {
+  const TemporaryFolder folder;
+  const Points grains = grain_points(numbered_grains(50), 2.5);
+  write_vtp(folder / "new.vtp", grains);
+  write_atomically(folder / "old.vtp", with_raw_block(read_file(folder / "new.vtp")));
+  const Points read = read_vtp(folder / "old.vtp");
+  EXPECT_EQ(read.time, 2.5);
+  EXPECT_EQ(read.x, read_vtp(folder / "new.vtp").x);
+  EXPECT_EQ(array(read.data, "id").values, array(grains.data, "id").values);
+  const std::string bytes = read_file(folder / "old.vtp");
+  write_atomically(folder / "cut.vtp", std::string_view(bytes).substr(0, bytes.size() - 300));
+  expect_io_fault([&] { read_vtp(folder / "cut.vtp"); }, {"cut.vtp", "ends inside"});
 }
 
 TEST(vtk, damaged_and_foreign_files_are_refused_by_name) {

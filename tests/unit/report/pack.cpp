@@ -60,12 +60,5 @@ TEST(pack, what_is_deflated_can_be_inflated) {
   EXPECT_EQ(back, text);
 }
 
-TEST(pack, base64_has_its_padding) {
-  EXPECT_EQ(base64("sand"), "c2FuZA==");
-  EXPECT_EQ(base64("sands"), "c2FuZHM=");
-  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
-  EXPECT_EQ(base64(""), "");
-}
-
 }  // namespace
 }  // namespace livebed::report
