@@ -87,7 +87,7 @@ public:
   template <class Self, class Visit>
   static void each_part(Self& self, Visit&& visit) {
     visit("owed_u", self.owed_u_), visit("owed_v", self.owed_v_);
-    visit("steps", self.steps_), visit("still", self.still_);
+    visit("still_steps", self.steps_), visit("still", self.still_);
     visit("still_x", self.still_x_), visit("still_y", self.still_y_);
     visit("still_given_x", self.given_x_), visit("still_given_y", self.given_y_);
     visit("still_solid", self.still_solid_), visit("still_damping", self.still_damping_);
