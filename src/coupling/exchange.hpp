@@ -89,6 +89,8 @@ public:
     visit("owed_u", self.owed_u_), visit("owed_v", self.owed_v_);
     visit("still_steps", self.steps_), visit("still", self.still_);
     visit("still_x", self.still_x_), visit("still_y", self.still_y_);
+    visit("still_beta", self.still_beta_), visit("still_volume", self.still_volume_);
+    visit("still_damps", self.still_damps_);
     visit("still_given_x", self.given_x_), visit("still_given_y", self.given_y_);
     visit("still_solid", self.still_solid_), visit("still_damping", self.still_damping_);
     visit("still_beta_u", self.still_beta_u_), visit("still_beta_v", self.still_beta_v_);

@@ -163,7 +163,7 @@ const Bad bad_cases[] = {
     {"pipe_outside_the_fine_window", "[mesh]\ngrowth = 1.05\nfine_x_from = 0.3\nfine_x_to = 0.4\n",
      "bad.toml:6: the pipe, 0.175 m to 0.225 m, leaves the fine window mesh.fine_x_from = 0.3 m to mesh.fine_x_to = "
      "0.4 m"},
-    {"kernel_between_the_cells", "[coupling]\nkernel = 0.5\n[mesh]\ncell_x = 0.01\n",
+    {"kernel_between_the_cells", "[coupling]\nkernel = 0.5\n[mesh]\ncell_x = 0.01\n[pipe]\npresent = false\n",
      "bad.toml:4: coupling.kernel = 0.5 reaches 0.001 m, less than 0.125 of a cell of 0.01 m: give at least "
      "0.625"},
     {"kernel_over_too_many_cells", "[coupling]\nkernel = 10\n[mesh]\ncell_x = 0.0005\n",
