@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <csignal>
 #include <thread>
 
@@ -119,6 +120,16 @@ TEST_F(Resume, with_no_readable_checkpoint_is_refused) {
   EXPECT_TRUE(fs::is_empty(*this / "empty"));
   EXPECT_EQ(run("resume nowhere").exit, input_output);
   EXPECT_FALSE(fs::exists(*this / "nowhere"));
+}
+
+TEST_F(Resume, with_grains_asleep_gives_the_unbroken_run) {
+  const std::string sleepy = small_start + " --set grains.sleep=true --set current.theta=0.06";
+  ASSERT_EQ(run("--threads 1 " + small_run("0.3", "whole", sleepy)).exit, ok);
+  ASSERT_EQ(run("--threads 2 " + small_run("0.13", "parts", sleepy)).exit, ok);
+  for (const std::string end : {"0.21", "0.3"}) ASSERT_EQ(run(one + "resume parts --quiet --until " + end).exit, ok);
+  const std::string still = datasets_of(run::list_checkpoints(*this / "parts").back()).at("/exchange/still");
+  EXPECT_GT(std::count(still.begin(), still.end(), '\1'), 50) << "hardly anybody sleeps";
+  expect_same_run(*this / "whole", *this / "parts");
 }
 
 TEST_F(Resume, is_not_needed_for_the_same_bits_on_other_threads) {
