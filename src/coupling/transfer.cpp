@@ -120,10 +120,31 @@ void Transfer::locate_one(int n, double x, double y) {
     for (int m = 0; m < ni; ++m) row += weight[m] * open[m];
     sum += share * row;
   });
+  if (sum <= 0 && move_to_nearest_water(n, x, y)) return;
   // A grain with no water anywhere around it has been driven deep into the pipe: the NaN reaches its velocity, and the
   // check of the grains names it.
   const double scale = sum > 0 ? 1.0 / sum : std::numeric_limits<double>::quiet_NaN();
   for (int k = 0; k < f.nj; ++k) wy[k] *= scale;
+}
+
+bool Transfer::move_to_nearest_water(int n, double x, double y) {
+  Footprint& f = footprint_[n];
+  const int columns = static_cast<int>(edges_x_.size()) - 1, rows = static_cast<int>(edges_y_.size()) - 1;
+  const int a = f.i0 - first_column_, b = f.j0 - first_row_;
+  double nearest = std::numeric_limits<double>::infinity();
+  Footprint found{0, 1, 0, 1};
+  for (int j = std::max(0, b - volumes_to_water); j < std::min(rows, b + f.nj + volumes_to_water); ++j)
+    for (int i = std::max(0, a - volumes_to_water); i < std::min(columns, a + f.ni + volumes_to_water); ++i) {
+      if (open_(first_column_ + i, first_row_ + j) <= 0) continue;
+      const double distance =
+          std::hypot(0.5 * (edges_x_[i] + edges_x_[i + 1]) - x, 0.5 * (edges_y_[j] + edges_y_[j + 1]) - y);
+      if (distance < nearest) nearest = distance, found.i0 = first_column_ + i, found.j0 = first_row_ + j;
+    }
+  if (!std::isfinite(nearest)) return false;
+  f = found;
+  weight_x_[static_cast<std::size_t>(n) * widest_] = 1.0;
+  weight_y_[static_cast<std::size_t>(n) * widest_] = 1.0 / open_(f.i0, f.j0);
+  return true;
 }
 
 }  // namespace livebed::coupling

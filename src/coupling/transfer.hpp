@@ -89,6 +89,10 @@ private:
     for (int b = 0; b < f.nj; ++b) visit(f.i0, f.ni, f.j0 + b, wy[b], wx, open_.row(f.j0 + b) + f.i0);
   }
   void locate_one(int n, double x, double y);
+  /// The nth grain, all of whose kernel is in closed volumes, as beside a pipe in cells larger than itself, belongs to
+  /// the nearest volume with water; false when there is none within volumes_to_water of the kernel.
+  bool move_to_nearest_water(int n, double x, double y);
+  static constexpr int volumes_to_water = 3;
 
   double half_width_ = 0;
   int first_column_ = 0, first_row_ = 0;
