@@ -135,4 +135,21 @@ double in_si(const Quantity& quantity, const Unit& unit) {
   return value * unit.factor;
 }
 
+Measured measured(std::string_view name, std::string_view written, std::string_view text, std::string_view unit) {
+  const auto fault = [&](const std::string& what) {
+    return Measured{0, fmt::format("{} = {} {}; {} is expected", name, written, what, describe(unit))};
+  };
+  const std::optional<Quantity> quantity = parse_quantity(text);
+  if (!quantity) return fault("is not a number with a unit");
+  const std::optional<Unit> given = parse_unit(quantity->unit);
+  if (!given) return fault(fmt::format("has the unknown unit {}", quantity->unit));
+  if (quantity->unit.empty() && unit != "-") {
+    Measured none = fault("has no unit");
+    none.fault += fmt::format(", or a bare number in {}", unit);
+    return none;
+  }
+  if (!given->same_dimension(*parse_unit(unit))) return fault(fmt::format("has the wrong unit {}", quantity->unit));
+  return {in_si(*quantity, *given), ""};
+}
+
 }  // namespace livebed::casefile
