@@ -1,7 +1,5 @@
 #include "case/check.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,19 +8,12 @@
 
 #include "app/options.hpp"
 #include "app/verbs.hpp"
-#include "base/loops.hpp"
 #include "case/resolved.hpp"
-#include "flow/mesh.hpp"
 #include "grains/sizes.hpp"
+#include "run/cost.hpp"
 
 namespace livebed::app {
 namespace {
-
-/// Speeds of one thread for the estimate of the wall time; an order of magnitude, not a promise.
-constexpr double grain_steps_per_second = 3e7;
-constexpr double cell_steps_per_second = 2e6;
-/// The gap under the pipe speeds the current up by about this much.
-constexpr double speed_up_at_pipe = 2;
 
 struct Number {
   const char* name;  ///< in JSON
@@ -31,29 +22,11 @@ struct Number {
   const char* meaning;
 };
 
-double smallest_width(const std::vector<double>& faces) {
-  double least = faces.back();
-  for (std::size_t i = 1; i < faces.size(); ++i) least = std::min(least, faces[i] - faces[i - 1]);
-  return least;
-}
-
 /// What follows from a case, in the order of the listing.
 std::vector<Number> derived_numbers(const casefile::Case& c) {
   const flow::Params& f = c.flow;
   const grains::Params& g = c.grains;
-  const auto faces = [&](double length, double cell, double from, double to) {
-    return flow::stretched_faces(length, cell, f.mesh.growth, from, to);
-  };
-  const std::vector<double> x = faces(f.mesh.length, f.mesh.cell_x, f.mesh.fine_x_from, f.mesh.fine_x_to);
-  const std::vector<double> y = faces(f.mesh.height, f.mesh.cell_y, f.mesh.fine_y_from, f.mesh.fine_y_to);
-  const double cells = static_cast<double>((x.size() - 1) * (y.size() - 1));
-  const double speed = f.current.mean_speed * (f.pipe.present ? speed_up_at_pipe : 1);
-  const double cell = std::min(smallest_width(x), smallest_width(y));
-  const double flow_step = std::min(f.max_step, f.courant * cell / speed);
-  const double flow_steps = (c.time.end + c.time.spin_up) / flow_step;
-  const double grain_steps = g.count > 0 ? c.time.end / g.step : 0;
-  const double wall =
-      (flow_steps * cells / cell_steps_per_second + grain_steps * g.count / grain_steps_per_second) / base::threads();
+  const run::Work work = run::work_of(c);
   return {{"theta", c.theta, "-", "Shields parameter"},
           {"shear_velocity", f.current.shear_velocity, "m/s", "u*"},
           {"mean_speed", f.current.mean_speed, "m/s", "depth mean of the current"},
@@ -73,11 +46,10 @@ std::vector<Number> derived_numbers(const casefile::Case& c) {
           {"damping", g.damping, "-", "alpha_cn"},
           {"restitution", g.restitution, "-", "of a head-on pair"},
           {"static_overlap", g.count > 0 ? grains::static_overlap(g, c.bed_thickness) : 0, "d", "of the lowest grains"},
-          {"cells", cells, "-", "cells of the grid"},
-          {"flow_step", flow_step, "s", "estimate from the Courant number"},
-          {"flow_steps", std::ceil(flow_steps), "-", "estimate, spin-up included"},
-          {"grain_steps", std::ceil(grain_steps), "-", "steps of every grain"},
-          {"wall_s", wall, "s", "rough estimate of the wall time, packing not included"}};
+          {"cells", work.cells, "-", "cells of the grid"},
+          {"flow_step", work.flow_step, "s", "estimate from the Courant number"},
+          {"flow_steps", work.held_steps + work.flow_steps, "-", "estimate, spin-up included"},
+          {"grain_steps", work.grain_steps, "-", "steps of every grain; livebed plan predicts the wall time"}};
 }
 
 void print_json(const casefile::Case& c) {

@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   app::Action chosen;
   app::add_new(program, chosen);
   app::add_check(program, chosen);
+  app::add_plan(program, chosen);
   app::add_run(program, chosen);
   app::add_resume(program, chosen);
   app::add_keys(program, chosen);

@@ -13,7 +13,7 @@ struct CaseOptions {
   std::string path;
   std::vector<std::string> overrides;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& verb, bool required = true);
   casefile::Case read() const;
 };
 

@@ -12,6 +12,7 @@ namespace livebed::app {
 using Action = std::function<base::Exit()>;
 
 void add_new(CLI::App& app, Action& chosen);
+void add_plan(CLI::App& app, Action& chosen);
 void add_run(CLI::App& app, Action& chosen);
 void add_resume(CLI::App& app, Action& chosen);
 void add_check(CLI::App& app, Action& chosen);

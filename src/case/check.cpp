@@ -6,6 +6,7 @@
 
 #include "base/fault.hpp"
 #include "base/math.hpp"
+#include "base/sediment.hpp"
 #include "case/units.hpp"
 #include "case/walls.hpp"
 #include "flow/profiles.hpp"
@@ -85,9 +86,9 @@ void derive_current(Case& c) {
 
 void derive_times(Case& c) {
   const bool scours = c.flow.pipe.present && c.grains.count > 0;
-  c.time_scale =
-      scours ? scour_time_scale(c.flow.pipe.diameter, c.grains.diameter, specific_density(c), c.grains.gravity, c.theta)
-             : 0;
+  c.time_scale = scours ? base::scour_time_scale(c.flow.pipe.diameter, c.grains.diameter, specific_density(c),
+                                                 c.grains.gravity, c.theta)
+                        : 0;
   if (c.is_given("time.end_over_T"))
     c.time.end = c.time.end_over_T * c.time_scale;
   else
@@ -151,10 +152,6 @@ grains::Grading parse_grading(std::string_view text) {
     begin = end + 1;
   }
   return points;
-}
-
-double scour_time_scale(double D, double d, double s, double g, double theta) {
-  return base::square(D) / std::sqrt(g * (s - 1) * base::cube(d)) * std::pow(theta, -5.0 / 3.0) / 50;
 }
 
 void derive(Case& c) {

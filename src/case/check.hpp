@@ -30,9 +30,6 @@ inline constexpr double overlap_to_note = 0.01;
 /// cannot be read; whether the curve makes sense is checked elsewhere (grains::check_grading).
 grains::Grading parse_grading(std::string_view text);
 
-/// Scour time scale T = D^2/sqrt(g (s-1) d^3) theta^(-5/3)/50 [s].
-double scour_time_scale(double D, double d, double s, double g, double theta);
-
 /// Fills every derived number of a case whose given keys are set; c.given says which of the alternatives they are.
 void derive(Case& c);
 

@@ -67,26 +67,9 @@ Converted convert_real(const Row& row, const toml::node& node) {
   if (const std::optional<double> bare = node.is_number() ? node.value<double>() : std::nullopt) {
     value = *bare;
   } else if (const toml::value<std::string>* string = node.as_string()) {
-    const std::string text = as_written(node);
-    const std::optional<Quantity> quantity = parse_quantity(string->get());
-    if (!quantity)
-      return {{},
-              fmt::format("{} = {} is not a number with a unit; {} is expected", row.name, text, describe(row.unit))};
-    const Unit expected = *parse_unit(row.unit);
-    const std::optional<Unit> unit = parse_unit(quantity->unit);
-    if (!unit)
-      return {{},
-              fmt::format("{} = {} has the unknown unit {}; {} is expected", row.name, text, quantity->unit,
-                          describe(row.unit))};
-    if (quantity->unit.empty() && row.unit != "-")
-      return {{},
-              fmt::format("{} = {} has no unit; {} is expected, or a bare number in {}", row.name, text,
-                          describe(row.unit), row.unit)};
-    if (!unit->same_dimension(expected))
-      return {{},
-              fmt::format("{} = {} has the wrong unit {}; {} is expected", row.name, text, quantity->unit,
-                          describe(row.unit))};
-    value = in_si(*quantity, *unit);
+    const Measured with_unit = measured(row.name, as_written(node), string->get(), row.unit);
+    if (!with_unit.fault.empty()) return {{}, with_unit.fault};
+    value = with_unit.value;
   } else {
     return wrong_type(row, node, describe(row.unit));
   }

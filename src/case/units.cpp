@@ -135,4 +135,20 @@ double in_si(const Quantity& quantity, const Unit& unit) {
   return value * unit.factor;
 }
 
+Measured measured(std::string_view name, std::string_view written, std::string_view text, std::string_view unit) {
+  const std::string expected = describe(unit);
+  const std::optional<Quantity> quantity = parse_quantity(text);
+  if (!quantity)
+    return {0, fmt::format("{} = {} is not a number with a unit; {} is expected", name, written, expected)};
+  const std::optional<Unit> given = parse_unit(quantity->unit);
+  if (!given)
+    return {0, fmt::format("{} = {} has the unknown unit {}; {} is expected", name, written, quantity->unit, expected)};
+  if (quantity->unit.empty() && unit != "-")
+    return {0,
+            fmt::format("{} = {} has no unit; {} is expected, or a bare number in {}", name, written, expected, unit)};
+  if (!given->same_dimension(*parse_unit(unit)))
+    return {0, fmt::format("{} = {} has the wrong unit {}; {} is expected", name, written, quantity->unit, expected)};
+  return {in_si(*quantity, *given), ""};
+}
+
 }  // namespace livebed::casefile

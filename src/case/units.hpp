@@ -36,4 +36,12 @@ std::optional<Quantity> parse_quantity(std::string_view text);
 /// The number in SI, correctly rounded.
 double in_si(const Quantity& quantity, const Unit& unit);
 
+/// A text like "0.36 mm" as a number in SI, or the sentence that says why it is none.
+struct Measured {
+  double value = 0;
+  std::string fault;  ///< empty when all is well
+};
+/// name and written: how the fault is to call key and value; unit: of the schema, "m/s".
+Measured measured(std::string_view name, std::string_view written, std::string_view text, std::string_view unit);
+
 }  // namespace livebed::casefile

@@ -6,6 +6,7 @@
 
 #include "base/curves.hpp"
 #include "base/math.hpp"
+#include "base/sediment.hpp"
 #include "base/spectrum.hpp"
 #include "report/references.hpp"
 
@@ -147,13 +148,10 @@ ordered_json formulas(const RunFolder& run) {
   if (!run.pipe) return nullptr;
   const double gap = (run.pipe->y - run.original_level()) / run.pipe->diameter - 0.5;
   ordered_json all = ordered_json::array();
-  if (std::abs(gap) < 0.1)
-    all.push_back({{"name", "S_eq/D = 0.6 ± 0.2 (Sumer and Fredsøe 2002, current, e/D = 0)"},
-                   {"S_eq_over_D", 0.6},
-                   {"scatter", 0.2}});
-  else if (gap > 0)
-    all.push_back({{"name", "S_eq/D = 0.625 exp(-0.6 e/D) (Hansen, Fredsøe and Mao 1986)"},
-                   {"S_eq_over_D", 0.625 * std::exp(-0.6 * gap)}});
+  if (const auto depth = base::equilibrium_depth(gap)) {
+    all.push_back({{"name", fmt::format("{} ({})", depth->formula, depth->source)}, {"S_eq_over_D", depth->over_D}});
+    if (depth->scatter > 0) all.back()["scatter"] = depth->scatter;
+  }
   if (run.time_scale)
     all.push_back(
         {{"name", "T = D² θ^(-5/3) / (50 √(g(s-1)d³)) (Fredsøe, Sumer and Arnskov 1992)"}, {"T_s", *run.time_scale}});

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/math.hpp"
+#include "base/sediment.hpp"
 #include "case/read.hpp"
 #include "coupling/drag.hpp"
 #include "io/table.hpp"
@@ -69,7 +71,7 @@ void add_transport(const Sand& sand, const Tell& tell, Result& result, report::C
       setup = setup_of(sand, theta, seed);
       const FlatBedRun run = kept_flat_bed(setup, kept_flat_beds, tell);
       measured.push_back(run.theta), einstein.push_back(run.einstein(setup));
-      ratio.push_back(run.einstein(setup) / std::max(1e-9, meyer_peter_mueller(run.theta)));
+      ratio.push_back(run.einstein(setup) / std::max(1e-9, base::meyer_peter_mueller(run.theta)));
       each_theta.push_back(run.theta), each_phi.push_back(run.einstein(setup));
       seconds += run.seconds, commit = run.commit;
     }
@@ -82,7 +84,7 @@ void add_transport(const Sand& sand, const Tell& tell, Result& result, report::C
     result.rows.push_back(row);
     if (theta < judged_from || theta > judged_to) continue;
     row.name = name + "transport over that of Meyer-Peter and Mueller at the measured theta";
-    row.value = moved.mean / meyer_peter_mueller(at.back());
+    row.value = moved.mean / base::meyer_peter_mueller(at.back());
     row.low = 1 / factor_allowed, row.high = factor_allowed;
     row.reference = fmt::format("Meyer-Peter and Mueller (1948), measured theta {:.3f}; seeds {:.2f} to {:.2f}",
                                 at.back(), band(ratio).low, band(ratio).high);
@@ -131,8 +133,8 @@ void add_fall(Result& result) {
   const casefile::Case livebed = casefile::preset_case("livebed");
   const coupling::Params& p = livebed.coupling;
   for (const Sand& sand : sands) {
-    const double d = sand.diameter, nu = 1e-6, s = 2.65, star = d * std::cbrt((s - 1) * 9.81 / (nu * nu));
-    const double soulsby = nu / d * (std::sqrt(10.36 * 10.36 + 1.049 * base::cube(star)) - 10.36);
+    const double d = sand.diameter, nu = 1e-6, s = 2.65;
+    const double soulsby = base::fall_speed(d, s, 9.81, nu);
     Row row{fmt::format("{} sand: fall speed", sand.name),
             fall_speed({p.drag_curve, p.drag_viscous, p.drag_infinity}, d, s, nu), "m/s"};
     row.low = 0.9 * soulsby, row.high = 1.1 * soulsby;
@@ -153,8 +155,8 @@ Result bedload(const Tell& tell) {
   report::Curve mpm{"Meyer-Peter and Mueller", "#000000", {}, {}},
       camenen{"Camenen and Larson, threshold 0.045", "#777777", {}, {}, false, true};
   for (double theta = 0.02; theta < 1.1; theta += 0.01) {
-    mpm.x.push_back(theta), mpm.y.push_back(meyer_peter_mueller(theta));
-    camenen.x.push_back(theta), camenen.y.push_back(camenen_larson(theta, 0.045));
+    mpm.x.push_back(theta), mpm.y.push_back(base::meyer_peter_mueller(theta));
+    camenen.x.push_back(theta), camenen.y.push_back(base::camenen_larson(theta, 0.045));
   }
   chart.curves.push_back(mpm), chart.curves.push_back(camenen);
   result.pictures.push_back({"bedload_transport.svg", picture(chart)});

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/math.hpp"
+#include "base/sediment.hpp"
 #include "base/version.hpp"
 #include "case/read.hpp"
 #include "grains/measures.hpp"
@@ -122,11 +123,6 @@ double FlatBedRun::einstein(const FlatBedSetup& s) const {
   return flux / std::sqrt((s.density / water_density - 1) * gravity * base::cube(s.diameter));
 }
 
-double meyer_peter_mueller(double theta) { return theta > 0.047 ? 8 * std::pow(theta - 0.047, 1.5) : 0.0; }
-double camenen_larson(double theta, double critical) {
-  return 12 * std::pow(theta, 1.5) * std::exp(-4.5 * critical / theta);
-}
-
 FlatBedRun run_flat_bed(const FlatBedSetup& setup) {
   const auto begin = std::chrono::steady_clock::now();
   run::Simulation::Start start = run::Simulation::prepare(case_of(setup));
@@ -168,7 +164,7 @@ FlatBedRun kept_flat_bed(const FlatBedSetup& setup, const std::string& folder, c
   }
   run = run_flat_bed(setup);
   tell(fmt::format("{}: theta {:.3f}, Phi {:.3f}, {:.2f} of Meyer-Peter and Mueller, {:.0f} s", setup.name(), run.theta,
-                   run.einstein(setup), run.einstein(setup) / std::max(1e-9, meyer_peter_mueller(run.theta)),
+                   run.einstein(setup), run.einstein(setup) / std::max(1e-9, base::meyer_peter_mueller(run.theta)),
                    run.seconds));
   nlohmann::ordered_json kept = {{"setup", setup.text()}};
   pass([&](const char* name, auto& value) { kept[name] = value; });

@@ -38,11 +38,6 @@ struct FlatBedRun {
   double einstein(const FlatBedSetup& setup) const;
 };
 
-/// 8 (theta - 0.047)^1.5, Meyer-Peter and Mueller (1948); 0 below.
-double meyer_peter_mueller(double theta);
-/// 12 theta^1.5 exp(-4.5 theta_c / theta), Camenen and Larson (2005).
-double camenen_larson(double theta, double critical);
-
 FlatBedRun run_flat_bed(const FlatBedSetup& setup);
 
 /// The run kept in a folder for its setup, or made and kept there now: `folder`/NAME.json.

@@ -64,7 +64,7 @@ TEST_F(CommandLine, tells_version_and_help) {
 
 TEST_F(CommandLine, wrong_command_lines_end_with_2) {
   for (const char* wrong : {"", "check", "--nonsense", "check a b", "keys --preset paper", "keys --json --markdown",
-                            "new", "new nonsense", "--threads 0 keys", "--threads two keys"}) {
+                            "new nonsense", "--threads 0 keys", "--threads two keys"}) {
     const Result result = run(wrong);
     EXPECT_EQ(result.exit, 2) << wrong;
     EXPECT_FALSE(result.err.empty()) << wrong;

@@ -97,11 +97,6 @@ TEST(derive, the_printed_mean_speed_has_a_far_smaller_theta) {
   EXPECT_EQ(c.flow.current.mean_speed, 0.869);
 }
 
-TEST(derive, real_sand_has_maos_time_scale) {
-  // D = 5 cm, d = 0.36 mm, s = 2.65: 11.546 s from the closed formula.
-  EXPECT_NEAR(scour_time_scale(0.05, 0.00036, 2.65, 9.81, 0.33), 11.546, 1e-3);
-}
-
 TEST(derive, theta_mean_speed_and_shear_velocity_close_the_circle) {
   for (const std::string profile : {"rough", "smooth", "developed", "uniform"}) {
     const std::string keys = "profile = \"" + profile + "\"\n";
