@@ -28,16 +28,17 @@ Bed make_bed(const Params& complete);
 
 /// Moves the grains by `steps` steps of params.step in the fluid forces of state.fluid, which stay as they are.  The
 /// order of the grains may change: they are sorted whenever the lists are rebuilt.  The same bits for any number of
-/// threads.  Costs what the grains awake cost: nobody may move a sleeper in between.  Throws Fault (diverged) naming the grain, its place and the step when a number is not finite or a grain
-/// has left the box, Fault (internal) when a grain is missing or doubled.
+/// threads.  Costs what the grains awake cost: nobody may move a sleeper in between.  Throws Fault (diverged) naming
+/// the grain, its place and the step when a number is not finite or a grain has left the box, Fault (internal) when a
+/// grain is missing or, noticed when all lists are made anew, doubled.
 void advance(Bed& bed, int steps);
 
 /// Throws Fault (internal) unless every array holds params.count grains and each id from 0 to count - 1 occurs once.
 void check_count(const Bed& bed);
 
 /// Calls visit(name, array) for every array a checkpoint must hold (doubles and integers), State and Contacts alike, in
-/// a fixed order.  With these, Contacts::pipe_built, ::rebuilds and ::refreshed, pipe_impulse and steps, a bed goes on with the same
-/// bits.
+/// a fixed order.  With these, Contacts::pipe_built, ::rebuilds and ::refreshed, pipe_impulse and steps, a bed goes on
+/// with the same bits.
 template <class BedLike, class Visit>
 void each_array(BedLike& bed, Visit&& visit) {
   auto& s = bed.state;

@@ -64,8 +64,8 @@ void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch&
 }
 
 /// The final order of one window of ranks: sleepers last, by their places alone, before them those found calm; the
-/// others by the number of pairs close by, then of all pairs.  Slices then hold grains with equally long lists, few lanes idle, and one restless
-/// grain does not keep seven calm ones from falling asleep.
+/// others by the number of pairs close by, then of all pairs.  Slices then hold grains with equally long lists, few
+/// lanes idle, and one restless grain does not keep seven calm ones from falling asleep.
 void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
   std::int32_t by_all[wide_window], by_close[wide_window];
   const auto counting_sort = [&](const std::int32_t* from, const base::Lease<std::int32_t>& key, std::int32_t* to) {
@@ -374,11 +374,10 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   const std::size_t grains = n, padded = n + lanes;
   w.memory.divide<std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t,
                   double, double, double, std::int32_t, std::int32_t, std::int32_t, Remembered, double, double>(
-      {w.cell, grains}, {w.cell_start, static_cast<std::size_t>(cells.count()) + 1},
-      {w.old_of_rank, grains}, {w.old_of_new, grains}, {w.new_of_old, grains}, {w.rank_of_new, grains},
-      {w.new_of_rank, grains}, {w.x, padded}, {w.y, padded}, {w.touching, padded}, {w.found_first, grains},
-      {w.found_close, grains}, {w.found_all, grains}, {w.remembered, histories},
-      {w.remembered_rolling, c.rolling.empty() ? 0 : histories}, {w.values, grains});
+      {w.cell, grains}, {w.cell_start, static_cast<std::size_t>(cells.count()) + 1}, {w.old_of_rank, grains},
+      {w.old_of_new, grains}, {w.new_of_old, grains}, {w.rank_of_new, grains}, {w.new_of_rank, grains}, {w.x, padded},
+      {w.y, padded}, {w.touching, padded}, {w.found_first, grains}, {w.found_close, grains}, {w.found_all, grains},
+      {w.remembered, histories}, {w.remembered_rolling, c.rolling.empty() ? 0 : histories}, {w.values, grains});
   if (histories > 0) remember(s, c, w);
 
   rank_by_cell(s, cells, reach.gamma, w);

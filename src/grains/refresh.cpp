@@ -27,9 +27,7 @@ void each_chain_around(const Grid& grid, double x, double y, Body&& body) {
   }
 }
 
-std::int32_t& head_of(Grid& grid, double x, double y) {
-  return grid.head[grid.cells.number_of(x, y)];
-}
+std::int32_t& head_of(Grid& grid, double x, double y) { return grid.head[grid.cells.number_of(x, y)]; }
 
 void put_into(Grid& grid, int i, double x, double y) {
   std::int32_t& head = head_of(grid, x, y);
@@ -166,8 +164,7 @@ bool refresh(const Sweep& k, const State& s, Contacts& c, const Records& r, List
   if (static_cast<double>(c.refreshed) > most_refreshed * s.count()) return false;
   if (w.grid.head.empty()) fill_grid(s, c, k.reach, w.grid);
   if (w.grid.cells.columns < 3) return false;
-  return std::all_of(w.moved.begin(), w.moved.end(),
-                     [&](std::int32_t i) { return list_anew(k, s, c, r, w, i); });
+  return std::all_of(w.moved.begin(), w.moved.end(), [&](std::int32_t i) { return list_anew(k, s, c, r, w, i); });
 }
 
 }  // namespace livebed::grains
