@@ -6,6 +6,7 @@
 
 #include "base/fault.hpp"
 #include "base/math.hpp"
+#include "case/ids.hpp"
 #include "case/units.hpp"
 #include "case/walls.hpp"
 #include "flow/profiles.hpp"
@@ -346,6 +347,16 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
   keys({"time.stop_at_equilibrium", "pipe.present", "bed.count", "bed.thickness"})
       .fault_if(c.time.stop_at_equilibrium && c.time_scale == 0,
                 "time.stop_at_equilibrium needs a pipe and grains: without them nothing is scoured");
+
+  // output
+  check_window(keys({"output.profiles_x_to", "output.profiles_x_from", "mesh.length"}), "output.profiles_x_from",
+               "output.profiles_x_to", "mesh.length", c.output.profiles_x_from,
+               c.output.profiles_x_to > 0 ? c.output.profiles_x_to : mesh.length, mesh.length);
+  const std::string ids_fault = read_ids(c.output.track_ids).fault;
+  keys({"output.track_ids"}).fault_if(!ids_fault.empty(), "output.track_ids: {}", ids_fault);
+  keys({"output.tracks_every", "output.contacts_every", "bed.thickness", "bed.count"})
+      .fault_if((c.output.tracks_every > 0 || c.output.contacts_every > 0) && c.grains.count == 0,
+                "output.tracks_every and output.contacts_every need grains; the bed has none");
 }
 
 std::vector<std::string> notes(const Case& c) {
