@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   app::add_report(program, chosen);
   app::add_compare(program, chosen);
   app::add_sweep(program, chosen);
+  app::add_bed(program, chosen);
   app::add_bench(program, chosen);
   app::add_validate(program, chosen);
   app::add_completion(program, chosen);

@@ -14,12 +14,6 @@ namespace livebed::app {
 
 namespace {
 
-/// The first signal asks for a stop after the present step; a second one ends the program at once.
-void on_signal(int signal) {
-  run::request_stop(signal);
-  std::signal(signal, SIG_DFL);
-}
-
 std::string clock_time() {
   const std::time_t now = std::time(nullptr);
   char text[32];
@@ -40,12 +34,25 @@ public:
   explicit Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
 
   void operator()(double t, double end, double S_over_D, double speed, double left) {
+    show(t <= 0 ? 0 : t / end, t < 0 ? fmt::format("spin-up, t = {:.3f} s", t)
+                                     : fmt::format("t = {:.3f} of {:.3f} s, S/D = {:.3f}, {:.3g} s/s, {} left", t, end,
+                                                   S_over_D, speed, duration(left)));
+  }
+  /// Nobody knows when a bed will rest.
+  void packing(double t, double mean_speed, double settled_speed) {
+    show(0, fmt::format("packing, {:.3f} s: mean grain speed {:.2g} m/s, at rest below {:.2g}", t, mean_speed,
+                        settled_speed));
+  }
+  void clear() {
+    if (drawn_) fmt::print(stderr, "\r\033[K");
+    drawn_ = false;
+  }
+
+private:
+  void show(double share, const std::string& numbers) {
     if (quiet_) return;
-    const std::string numbers = t < 0 ? fmt::format("spin-up, t = {:.3f} s", t)
-                                      : fmt::format("t = {:.3f} of {:.3f} s, S/D = {:.3f}, {:.3g} s/s, {} left", t, end,
-                                                    S_over_D, speed, duration(left));
     if (terminal_) {
-      const int filled = t <= 0 ? 0 : static_cast<int>(30 * t / end);
+      const int filled = static_cast<int>(30 * share);
       fmt::print(stderr, "\r[{:=<{}}{:>{}}] {}\033[K", "", filled, "", 30 - filled, numbers);
       drawn_ = true;
     } else if (std::chrono::steady_clock::now() >= next_) {
@@ -54,12 +61,7 @@ public:
     }
     std::fflush(stderr);
   }
-  void clear() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
-    drawn_ = false;
-  }
 
-private:
   bool quiet_, terminal_, drawn_ = false;
   std::chrono::steady_clock::time_point next_{};
 };
@@ -80,8 +82,7 @@ void add_run_arguments(CLI::App& verb, RunArguments& arguments) {
 
 base::Exit run_with(const std::filesystem::path& folder, const RunArguments& arguments,
                     const std::function<base::Exit(const run::Options&)>& work) {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  run::obey_signals();
   if (arguments.watch) fmt::print(stderr, "{}\n", watch_from_beside(folder, arguments.port));
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a failed write
   Progress progress(arguments.quiet);
@@ -106,13 +107,16 @@ base::Exit run_with(const std::filesystem::path& folder, const RunArguments& arg
   options.progress = [&](double t, double end, double S, double speed, double left) {
     progress(t, end, S, speed, left);
   };
+  options.packing = [&](double t, double speed, double settled) { progress.packing(t, speed, settled); };
   base::Exit code{};
   try {
     code = work(options);
   } catch (const base::Fault& fault) {
     progress.clear();
     if (log.is_open()) note(fault.what());  // never into a folder that the run was refused
-    throw;
+    if (fault.code() != base::Exit::signal) throw;
+    fmt::print(stderr, "{}\n", fault.what());
+    code = fault.code();
   }
   progress.clear();
   if (code == base::Exit::signal)

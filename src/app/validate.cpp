@@ -1,4 +1,3 @@
-#include <csignal>
 #include <fmt/core.h>
 #include <memory>
 
@@ -13,7 +12,6 @@ namespace livebed::app {
 namespace {
 
 base::Exit validate_one(const validate::Case& which, const std::string& folder, bool json) {
-  std::signal(SIGINT, run::request_stop), std::signal(SIGTERM, run::request_stop);
   const validate::Result result = which.run([json](const std::string& line) {
     std::FILE* to = json ? stderr : stdout;
     fmt::print(to, "{}\n", line);
@@ -29,6 +27,8 @@ base::Exit validate_one(const validate::Case& which, const std::string& folder, 
     if (!row.pass())
       fmt::print(stderr, "outside its target: {} = {:.5g} {}, wanted {:.5g} to {:.5g} ({})\n", row.name, row.value,
                  row.unit, row.low, row.high, row.reference);
+  if (run::stop_signal() != 0)
+    return static_cast<base::Exit>(static_cast<int>(base::Exit::signal) + run::stop_signal());
   return result.pass() ? base::Exit::ok : base::Exit::comparison;
 }
 

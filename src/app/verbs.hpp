@@ -21,6 +21,7 @@ void add_watch(CLI::App& app, Action& chosen);
 void add_report(CLI::App& app, Action& chosen);
 void add_compare(CLI::App& app, Action& chosen);
 void add_sweep(CLI::App& app, Action& chosen);
+void add_bed(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
 void add_validate(CLI::App& app, Action& chosen);
 void add_completion(CLI::App& app, Action& chosen);

@@ -20,10 +20,18 @@ struct TimeParams {
 };
 
 struct OutputParams {
-  double series_every = 0.01;   ///< [s], rows of series.csv
-  double bed_every = 0.05;      ///< [s], lines of bed.csv
-  double fields_every = 0.25;   ///< [s], ParaView files
-  double checkpoint_every = 1;  ///< [s] of simulated time
+  double series_every = 0.01;                     ///< [s], rows of series.csv
+  double bed_every = 0.05;                        ///< [s], lines of bed.csv
+  double fields_every = 0.25;                     ///< [s], ParaView files
+  double checkpoint_every = 1;                    ///< [s] of simulated time
+  double profiles_every = 0;                      ///< length of a window of profiles.csv [s]; 0: none
+  double profiles_from = 0;                       ///< begin of the first one [s]
+  double profiles_x_from = 0, profiles_x_to = 0;  ///< stretch they are taken over [m]; to 0: to the end of the box
+  double profiles_cell = 0;                       ///< height of their layers [m]; 0: d/4
+  double tracks_every = 0;                        ///< [s], rows of tracks.csv; 0: none
+  int tracks = 10;                                ///< grains followed: those nearest to the bed under the pipe
+  std::string track_ids;                          ///< or these, as written: "12, 40"; empty: not chosen so
+  double contacts_every = 0;                      ///< [s], files of contact forces for ParaView; 0: none
 };
 
 /// One resolved case: everything a run needs, in SI units, derived numbers filled in (check.hpp).
@@ -39,6 +47,7 @@ struct Case {
   std::string grading;               ///< sieve curve as written: "0.2 mm: 10 %, 0.36 mm: 50 %"; empty: none
   double bed_thickness = 0.05;       ///< [m], level of the bed: nominal until the packing has shown the true one
   std::string walls;                 ///< for the grains, as written (walls.hpp)
+  std::string bed_file;              ///< LAMMPS data file the grains start from; empty: they are packed
   double cut = 0;                    ///< [m], level to which a bed of a given count was cut; 0: not cut
   double measured_level = 0;         ///< [m], that true one; 0 before the packing
 

@@ -7,6 +7,7 @@
 #include "base/fault.hpp"
 #include "base/math.hpp"
 #include "base/sediment.hpp"
+#include "case/ids.hpp"
 #include "case/units.hpp"
 #include "case/walls.hpp"
 #include "flow/profiles.hpp"
@@ -218,6 +219,20 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
   keys({"grains.diameter", "mesh.length"})
       .fault_if(d > mesh.length / 10, "grains.diameter = {} m leaves fewer than 10 grains in mesh.length = {} m", d,
                 mesh.length);
+  const int pieces = c.grains.pieces;
+  keys({"bed.pieces", "grains.diameter", "mesh.length"})
+      .fault_if(pieces > 1 && mesh.length / pieces < least_piece * d,
+                "bed.pieces = {} are {:.3g} grains long each; {} are needed, so at most {} pieces", pieces,
+                mesh.length / pieces / d, least_piece, std::max(1, static_cast<int>(mesh.length / (least_piece * d))));
+  keys({"bed.pieces", "bed.walls", "bed.side_walls"})
+      .fault_if(pieces > 1 && (c.grains.side_walls || !c.grains.walls.empty()),
+                "bed.pieces = {} fit together only without walls: remove bed.walls and bed.side_walls", pieces);
+  keys({"bed.pieces", "bed.file"})
+      .fault_if(pieces > 1 && !c.bed_file.empty(), "bed.pieces = {} are for a bed that is packed; bed.file gives one",
+                pieces);
+  keys({"bed.pieces", "bed.count"})
+      .fault_if(pieces > 1 && c.measured_level == 0 && c.is_given("bed.count") && c.grains.count % pieces != 0,
+                "bed.count = {} cannot be divided into bed.pieces = {} alike", c.grains.count, pieces);
   keys({"bed.thickness", "bed.count", "mesh.height", "grains.diameter", "grains.spread", "mesh.length"})
       .fault_if(bed >= mesh.height, "the bed is {:.4g} m thick and leaves no water in mesh.height = {} m", bed,
                 mesh.height);
@@ -343,6 +358,16 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
   keys({"time.stop_at_equilibrium", "pipe.present", "bed.count", "bed.thickness"})
       .fault_if(c.time.stop_at_equilibrium && c.time_scale == 0,
                 "time.stop_at_equilibrium needs a pipe and grains: without them nothing is scoured");
+
+  // output
+  check_window(keys({"output.profiles_x_to", "output.profiles_x_from", "mesh.length"}), "output.profiles_x_from",
+               "output.profiles_x_to", "mesh.length", c.output.profiles_x_from,
+               c.output.profiles_x_to > 0 ? c.output.profiles_x_to : mesh.length, mesh.length);
+  const std::string ids_fault = read_ids(c.output.track_ids).fault;
+  keys({"output.track_ids"}).fault_if(!ids_fault.empty(), "output.track_ids: {}", ids_fault);
+  keys({"output.tracks_every", "output.contacts_every", "bed.thickness", "bed.count"})
+      .fault_if((c.output.tracks_every > 0 || c.output.contacts_every > 0) && c.grains.count == 0,
+                "output.tracks_every and output.contacts_every need grains; the bed has none");
 }
 
 std::vector<std::string> notes(const Case& c) {

@@ -20,6 +20,8 @@ inline constexpr double roughness_over_diameter = 2.5;
 inline constexpr int most_grains = 100'000'000;
 /// Fewer cells than this across the pipe cannot turn the flow round it.
 inline constexpr double least_cells_across_pipe = 8;
+/// A piece of a bed is at least so many grains long: shorter ones would show their repetition.
+inline constexpr double least_piece = 50;
 /// More cells than this inside the half-width of the transfer kernel cost more than they tell.
 inline constexpr double least_kernel_in_cells = 0.125;  ///< a narrower one leaves grain and cell to chance [-]
 inline constexpr double most_cells_in_kernel = 20;

@@ -39,6 +39,14 @@ void add_bed(std::vector<Row>& s) {
                             {{"lattice", grains::Placing::lattice}, {"scattered", grains::Placing::scattered}})
           .says("the grains before they settle: rows of a square lattice, or scattered as densely as they will lie")
           .from("Sec. 4.3: lattice"));
+  s.push_back(integer("bed.pieces", grains(&G::pieces))
+                  .within(1, 1000)
+                  .says("equal pieces side by side that the bed is made of: one is packed, then copied and settled "
+                        "with its copies, so that a long bed takes little longer than a short one"));
+  s.push_back(
+      text("bed.file", at(&Case::bed_file))
+          .says("LAMMPS data file (atom_style sphere) from which the grains settle instead of being packed; its "
+                "box is mesh.length long"));
   s.push_back(real("bed.packing_fraction", "-", grains(&G::packing_fraction))
                   .within(0.5, 0.9)
                   .says("share of the plane inside the bed that grains are to fill as circles: how densely they are "

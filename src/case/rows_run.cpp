@@ -102,7 +102,7 @@ void add_time(std::vector<Row>& s) {
 
 void add_output(std::vector<Row>& s) {
   using O = OutputParams;
-  const auto output = [](double O::*member) { return at(&Case::output, member); };
+  const auto output = [](auto O::*member) { return at(&Case::output, member); };
   s.push_back(real("output.series_every", "s", output(&O::series_every)).above(0).says("rows of series.csv"));
   s.push_back(real("output.bed_every", "s", output(&O::bed_every)).above(0).says("lines of bed.csv"));
   s.push_back(
@@ -110,6 +110,31 @@ void add_output(std::vector<Row>& s) {
   s.push_back(real("output.checkpoint_every", "s", output(&O::checkpoint_every))
                   .above(0)
                   .says("checkpoints, in simulated time"));
+  s.push_back(real("output.profiles_every", "s", output(&O::profiles_every))
+                  .at_least(0)
+                  .says("profiles.csv: means over windows of this length, one after the other; 0: none"));
+  s.push_back(
+      real("output.profiles_from", "s", output(&O::profiles_from)).at_least(0).says("begin of the first window"));
+  s.push_back(real("output.profiles_x_from", "m", output(&O::profiles_x_from))
+                  .at_least(0)
+                  .says("begin of the stretch that profiles are taken over"));
+  s.push_back(real("output.profiles_x_to", "m", output(&O::profiles_x_to))
+                  .at_least(0)
+                  .says("end of that stretch; 0: that of the box"));
+  s.push_back(real("output.profiles_cell", "m", output(&O::profiles_cell))
+                  .at_least(0)
+                  .says("height of the layers of a profile; 0: a quarter of a grain"));
+  s.push_back(real("output.tracks_every", "s", output(&O::tracks_every))
+                  .at_least(0)
+                  .says("tracks.csv: rows of grains that are followed; 0: none"));
+  s.push_back(integer("output.tracks", output(&O::tracks))
+                  .within(1, 10000)
+                  .says("how many of them: those nearest to the bed under the pipe when the grains are released"));
+  s.push_back(text("output.track_ids", output(&O::track_ids))
+                  .says("or which: their ids with commas, as in \"12, 40\"; grains/ tells them"));
+  s.push_back(real("output.contacts_every", "s", output(&O::contacts_every))
+                  .at_least(0)
+                  .says("contacts.pvd: forces in the contacts, as lines for ParaView; 0: none"));
 }
 
 }  // namespace livebed::casefile

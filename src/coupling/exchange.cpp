@@ -133,24 +133,35 @@ void Coupler::wake(const grains::State& g) {
   add_still(woken, -1);
 }
 
-void Coupler::settle(const grains::State& g) {
-  if (g.sleep.asleep.empty()) return;
+void Coupler::forget_still() {
+  std::fill(still_.begin(), still_.end(), 0);
+  for (Field* sum : {&still_solid_, &still_beta_u_, &still_beta_v_, &still_damping_}) sum->fill(0.0);
+  located_ = false;
+}
+
+template <class Rests>
+void Coupler::settle(const grains::State& g, Rests&& rests) {
   const std::int64_t place = ++steps_ % steps_a_round;
-  if (place == 0) {
-    std::fill(still_.begin(), still_.end(), 0);
-    for (Field* sum : {&still_solid_, &still_beta_u_, &still_beta_v_, &still_damping_}) sum->fill(0.0);
-    located_ = false;
-  } else if (place == 1) {
-    std::vector<int> asleep;
-    for (int k = 0; k < g.count(); ++k) {
-      if (g.sleep.asleep[k] == 0) continue;
-      const int id = g.id[k];
-      still_[id] = 1, asleep.push_back(id);
-      still_x_[id] = g.x[k], still_y_[id] = g.y[k];
-      still_beta_[id] = g.fluid.beta[k], still_volume_[id] = base::sphere_volume(g.diameter[k]);
-    }
-    add_still(asleep, 1);
+  if (place == 0) forget_still();
+  if (place != 1) return;
+  std::vector<int> still;
+  for (int k = 0; k < g.count(); ++k) {
+    if (!rests(k)) continue;
+    const int id = g.id[k];
+    still_[id] = 1, still.push_back(id);
+    still_x_[id] = g.x[k], still_y_[id] = g.y[k];
+    still_beta_[id] = g.fluid.beta[k], still_volume_[id] = base::sphere_volume(g.diameter[k]);
   }
+  add_still(still, 1);
+}
+
+void Coupler::hold(const grains::State& g) {
+  if (params_.mode == Mode::two_way) settle(g, [](int) { return true; });
+}
+
+void Coupler::let_go() {
+  forget_still();
+  steps_ = 0;
 }
 
 int Coupler::rows_with_grains(const grains::State& g) const {
@@ -436,7 +447,7 @@ void Coupler::collect(const grains::State& g, const flow::Solver& flow, double d
       ledger_.to_flow.x, ledger_.to_grains.x, ledger_.carried.x, owed_u_);
   one(at_v_, flow.at_v(), g.impulse_y, g.v, g.fluid.v, given_y_, before_v_, s.v, s.load.beta_v, s.load.force_v,
       ledger_.to_flow.y, ledger_.to_grains.y, ledger_.carried.y, owed_v_);
-  settle(g);
+  if (!g.sleep.asleep.empty()) settle(g, [&](int k) { return g.sleep.asleep[k] != 0; });
 }
 
 double Coupler::given_to_still(const Field& beta, const Field& velocity, double dt) const {

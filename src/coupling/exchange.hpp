@@ -26,7 +26,7 @@ inline constexpr double packed_solid = 0.55, packed_share = 0.9;
 /// A face with less opening than this passes no pressure gradient on to grains [-]: the pressure in a sliver of a cell
 /// is whatever stops the little that flows there.
 inline constexpr double sliver = 0.05;
-/// The water around grains asleep is looked at every so many steps of the flow.
+/// The water around grains that are still is looked at every so many steps of the flow.
 inline constexpr int steps_a_round = 32;
 inline constexpr double solid_least = 1e-3;  ///< fewer grains leave the eddies alone [-]
 inline constexpr double room_least = 0.02;   ///< of the packed bed over d; keeps its dissipation finite
@@ -59,7 +59,7 @@ struct Materials {
 ///
 /// Grains that sleep (grains::Sleep) neither move nor see other water: in the first step of a round they are treated
 /// like all others; from then on the sum of what they do to the cells is kept, and each is taken out of it when it
-/// wakes.
+/// wakes.  Grains that are held while the flow spins up are all still.
 ///
 /// Where the inlet is recycled the water has no beginning and no end and is the same all along the box: what the grains
 /// do to it is averaged along x, as in the one-dimensional flows that bed-load experiments are compared with (Revil-
@@ -70,6 +70,10 @@ public:
 
   /// Step 1.  held: the grains stand still whatever happens (spin-up of the flow on the fixed bed).
   void load_flow(grains::State& g, flow::Solver& flow, double dt, bool held);
+  /// After each step with the grains held: all of them are still.
+  void hold(const grains::State& g);
+  /// Ends that.
+  void let_go();
   /// Step 3.  dt: the step of the flow [s].
   void push_grains(const flow::Solver& flow, grains::State& g, double dt);
   /// Step 4.
@@ -103,8 +107,10 @@ private:
   void locate(const grains::State& g);
   /// Takes grains that have woken out of the sum of those that are still.
   void wake(const grains::State& g);
-  /// From the second step of a round on grains asleep are still; before the first nobody is.
-  void settle(const grains::State& g);
+  /// From the second step of a round on the grains for which rests(k) holds are still; before the first nobody is.
+  template <class Rests>
+  void settle(const grains::State& g, Rests&& rests);
+  void forget_still();
   /// Adds what the grains of a list do to the cells to the sums of those that are still, or takes it away again.
   void add_still(const std::vector<int>& ids, double sign);
   /// Rows of the grid, from the floor, that the kernel of any grain touches.

@@ -9,8 +9,8 @@
 namespace livebed::grains {
 
 Sweep make_sweep(const Params& p, const Circle& pipe) {
-  // An even number of fixed grains fills the period, so that even and odd ones alternate across the seam.
-  const double pairs = std::max(1.0, std::round(p.length / (2 * p.diameter)));
+  // An even number of fixed grains fills every piece of the bed, so that even and odd ones alternate across the seams.
+  const double pairs = p.pieces * std::max(1.0, std::round(p.length / (2 * p.diameter * p.pieces)));
   return {.count = p.count,
           .law = p.law,
           .pair = pair_contact(p),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sphere.hpp"
+
 namespace livebed::grains {
 
 using base::square;
@@ -62,20 +64,16 @@ double solid_thickness(const Params& p, const State& s) {
 }
 
 Fractions packing_fractions(const Params& p, const State& s, double low, double high) {
-  // Of a circle and a sphere of radius r the parts below a height h above their centre.
+  // Of a circle of radius r the part below a height h above its centre.
   const auto area_below = [](double r, double h) {
     h = std::clamp(h, -r, r);
     return r * r * std::acos(-h / r) + h * std::sqrt((r - h) * (r + h));
-  };
-  const auto volume_below = [](double r, double h) {
-    h = std::clamp(h, -r, r);
-    return base::pi / 3 * square(r + h) * (2 * r - h);
   };
   double area = 0, volume = 0;
   for (int i = 0; i < s.count(); ++i) {
     const double r = 0.5 * s.diameter[i];
     area += area_below(r, high - s.y[i]) - area_below(r, low - s.y[i]);
-    volume += volume_below(r, high - s.y[i]) - volume_below(r, low - s.y[i]);
+    volume += base::sphere_volume_below(r, high - s.y[i]) - base::sphere_volume_below(r, low - s.y[i]);
   }
   const double plane = p.length * (high - low);
   return {area / plane, volume / (plane * p.diameter)};

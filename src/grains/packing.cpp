@@ -98,7 +98,7 @@ Bed scattered(const Params& given) {
   bed.contacts = {};
   return bed;
 }
-std::vector<SettleRow> settle(Bed& bed) {
+std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look) {
   const Params& p = bed.params;
   const double time = fall_time(p);
   const int steps = std::max(1, static_cast<int>(time / looks_per_fall / p.step));
@@ -127,6 +127,7 @@ std::vector<SettleRow> settle(Bed& bed) {
     advance(bed, steps);
     const double now = static_cast<double>(bed.steps - begin) * p.step;
     rows.push_back({now, mean_speed(bed.state), max_speed(bed.state), bed_height(bed.state)});
+    if (on_look) on_look(rows.back());
     const bool slow = rows.back().mean_speed < p.settled_speed;
     calm = slow && now > time ? calm + 1 : 0;
     if (calm == looks_in_a_row) {
@@ -195,27 +196,46 @@ int count_in_layer(const Params& p, double thickness) {
 
 }  // namespace
 
-std::vector<SettleRow> level(Bed& bed, double height) {
+std::vector<SettleRow> level(Bed& bed, double height, const OnLook& on_look) {
   std::vector<SettleRow> rows;
   const double needed = height + least_above_cut * largest_diameter(bed.params);
   for (double now = bed_height(bed.state); now < needed; now = bed_height(bed.state)) {
     const double missing = needed - now + largest_diameter(bed.params);
     bed = changed(
         bed, [](int) { return true; }, count_in_layer(bed.params, missing));
-    append(rows, settle(bed));
+    append(rows, settle(bed, on_look));
   }
   bed = changed(
       bed, [&](int i) { return bed.state.y[i] < height; }, 0);
-  append(rows, settle(bed));
+  append(rows, settle(bed, on_look));
   return rows;
 }
 
-Packing pack(const Params& given) {
+namespace {
+
+/// One piece of the bed packed, its copies side by side settled together.
+Packing pack_in_pieces(const Params& p, const OnLook& on_look) {
+  Params one = p;
+  one.pieces = 1;
+  one.length /= p.pieces;
+  if (p.thickness == 0 && p.count % p.pieces != 0)
+    fail(Exit::invalid_case, "bed.count = {} cannot be divided into bed.pieces = {} alike", p.count, p.pieces);
+  one.count /= p.pieces;
+  Packing result = pack(one, on_look);
+  result.bed = side_by_side(result.bed, p.pieces);
+  append(result.convergence, settle(result.bed, on_look));
+  return result;
+}
+
+}  // namespace
+
+Packing pack(const Params& given, const OnLook& on_look) {
   Params p = derive(given);
+  if (p.pieces > 1) return pack_in_pieces(p, on_look);
   if (p.thickness > 0) p.count = count_in_layer(p, p.thickness + 2 * least_above_cut * largest_diameter(p));
   Packing result{.bed = p.start == Placing::lattice ? lattice(p) : scattered(p), .convergence = {}};
-  result.convergence = settle(result.bed);
-  if (p.thickness > 0) append(result.convergence, level(result.bed, p.thickness));
+  result.convergence = settle(result.bed, on_look);
+  if (p.thickness > 0) append(result.convergence, level(result.bed, p.thickness, on_look));
   return result;
 }
 
@@ -224,6 +244,7 @@ Bed side_by_side(const Bed& tile, int tiles) {
   Params p = tile.params;
   p.count *= tiles;
   p.length *= tiles;
+  p.pieces *= tiles;
   Bed bed = make_bed(p);
   for (int i = 0; i < p.count; ++i) {
     bed.state.x[i] = tile.state.x[i % n] + i / n * tile.params.length;
@@ -233,7 +254,7 @@ Bed side_by_side(const Bed& tile, int tiles) {
   return bed;
 }
 
-std::vector<SettleRow> place_pipe(Bed& bed, const Circle& target, double speed) {
+std::vector<SettleRow> place_pipe(Bed& bed, const Circle& target, double speed, const OnLook& on_look) {
   const Params& p = bed.params;
   const double radius = 0.5 * target.diameter;
   if (target.y - radius < 0) {
@@ -251,7 +272,7 @@ std::vector<SettleRow> place_pipe(Bed& bed, const Circle& target, double speed) 
     bed.pipe.y = std::max(target.y, bed.pipe.y - lowering);
     advance(bed, steps);
   }
-  return settle(bed);
+  return settle(bed, on_look);
 }
 
 }  // namespace livebed::grains

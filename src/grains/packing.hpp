@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "grains/advance.hpp"
@@ -12,6 +13,9 @@ struct SettleRow {
   double max_speed;   ///< [m/s]
   double height;      ///< bed_height [m]
 };
+
+/// Is told every look while grains settle; what it throws ends that.
+using OnLook = std::function<void(const SettleRow&)>;
 
 struct Packing {
   Bed bed;
@@ -32,25 +36,29 @@ Bed scattered(const Params& given);
 /// settled_speed, then in none, until it has stayed so for ten looks in a row.  Fluid forces and impulses are zero
 /// afterwards.  Throws Fault (stopped by limit) with the last speeds and what to do when settle_time passes before, or
 /// already when the bed shakes without getting slower.
-std::vector<SettleRow> settle(Bed& bed);
+std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look = {});
 
 /// Brings a bed at rest to a level [m]: heaps more grains onto it where its mean level is not well above, takes away
 /// every grain whose centre is higher, and lets the rest settle anew.  The number of grains changes, and what contacts
 /// remember is lost.
-std::vector<SettleRow> level(Bed& bed, double height);
+std::vector<SettleRow> level(Bed& bed, double height, const OnLook& on_look = {});
 
 /// Makes a bed at rest: lattice or scattered (start), settle and, when a thickness is given, level; the number of
-/// grains then follows from it.
-Packing pack(const Params& given);
+/// grains then follows from it.  A bed of pieces is one of them packed so and copied side by side, settled again: a
+/// long bed in little more than the time of a short one, that repeats itself.
+Packing pack(const Params& given, const OnLook& on_look = {});
 
 /// Copies of a bed side by side, a long bed in the time a short one takes to pack.  The period makes the seams fit.
 /// What the contacts remember is not copied: friction builds up anew within a few steps, settle if that matters.
 Bed side_by_side(const Bed& tile, int tiles);
 
+inline constexpr double lowering_speed = 0.05;  ///< [m/s]
+
 /// Brings the pipe to its place.  Grains bulge above the nominal bed by half a diameter or more and an embedded pipe
 /// meets many of them, so it starts above them and is lowered at `speed` [m/s], slow enough that they make way without
 /// knocks, in a thick fluid; then the bed settles again.  Returns the convergence of that.  Throws as settle does, and
 /// Fault (invalid case) when the pipe would reach through the floor.
-std::vector<SettleRow> place_pipe(Bed& bed, const Circle& target, double speed = 0.05);
+std::vector<SettleRow> place_pipe(Bed& bed, const Circle& target, double speed = lowering_speed,
+                                  const OnLook& on_look = {});
 
 }  // namespace livebed::grains

@@ -82,6 +82,7 @@ struct Params {
   Floor floor = Floor::plane;
   bool side_walls = false;      ///< walls at x = 0 and x = length instead of the period
   std::vector<Polyline> walls;  ///< further walls
+  int pieces = 1;               ///< equal pieces side by side that the bed is made of: one is packed, then copied
   Placing start = Placing::lattice;
   double lattice_gap = 0.001;      ///< gap between the grains of the starting lattice over d [-]
   double packing_fraction = 0.82;  ///< share of the plane inside the bed that the circles of the grains are to fill [-]

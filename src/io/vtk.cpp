@@ -134,28 +134,34 @@ void write_vtr(const Path& path, const Grid& grid) {
 
 void write_vtp(const Path& path, const Points& points) {
   const std::size_t n = points.x.size();
-  const bool line = points.shape == Shape::closed_line;
+  const std::size_t lines = points.shape == Shape::pairs ? n / 2 : points.shape == Shape::closed_line ? 1 : 0;
   std::string body = "<PolyData>\n" + time_element(points.time) +
                      fmt::format(
                          "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
-                         "NumberOfPolys=\"0\">\n<PointData>\n",
-                         n, line ? 0 : n, line ? 1 : 0);
-  for (const DataArray& a : points.data) {
-    if (a.values.size() != n * static_cast<std::size_t>(a.components))
-      fail(Exit::internal, "{}: {} has {} values for {} points", path.string(), a.name, a.values.size(), n);
-    body += element(a);
-  }
-  body += "</PointData>\n<Points>\n" + element({"points", 3, Store::float32, with_zero(points.x, points.y)}) +
-          "</Points>\n";
+                         "NumberOfPolys=\"0\">\n",
+                         n, points.shape == Shape::points ? n : 0, lines);
+  const auto section = [&](const char* name, const std::vector<DataArray>& arrays, std::size_t count) {
+    body += fmt::format("<{}>\n", name);
+    for (const DataArray& a : arrays) {
+      if (a.values.size() != count * static_cast<std::size_t>(a.components))
+        fail(Exit::internal, "{}: {} has {} values for {} of {}", path.string(), a.name, a.values.size(), count, name);
+      body += element(a);
+    }
+    body += fmt::format("</{}>\n", name);
+  };
+  section("PointData", points.data, n);
+  if (!points.lines.empty()) section("CellData", points.lines, lines);
+  body += "<Points>\n" + element({"points", 3, Store::float32, with_zero(points.x, points.y)}) + "</Points>\n";
   std::vector<double> corners(n);
   std::iota(corners.begin(), corners.end(), 0.0);
-  if (line) {
+  if (points.shape == Shape::closed_line) {
     corners.push_back(0.0);
     body += topology("Lines", corners, {static_cast<double>(n + 1)});
   } else {
-    std::vector<double> ends(n);
-    std::iota(ends.begin(), ends.end(), 1.0);
-    body += topology("Verts", corners, ends);
+    const int step = points.shape == Shape::pairs ? 2 : 1;
+    std::vector<double> ends(n / step);
+    for (std::size_t k = 0; k < ends.size(); ++k) ends[k] = static_cast<double>((k + 1) * step);
+    body += topology(step == 2 ? "Lines" : "Verts", corners, ends);
   }
   write_atomically(path, xml_file("PolyData", body + "</Piece>\n</PolyData>\n"));
 }
@@ -183,8 +189,10 @@ Points read_vtp(const Path& path) {
     points.x.push_back(triples.values[n]);
     points.y.push_back(triples.values[n + 1]);
   }
-  points.shape = in.attributes("Piece").at("NumberOfLines") == "0" ? Shape::points : Shape::closed_line;
+  const std::string count = in.attributes("Piece").at("NumberOfLines");
   points.data = in.arrays("PointData");
+  points.lines = in.arrays("CellData");
+  points.shape = !points.lines.empty() ? Shape::pairs : count == "0" ? Shape::points : Shape::closed_line;
   for (const DataArray& a : points.data)
     if (a.values.size() != points.x.size() * static_cast<std::size_t>(a.components))
       fail(Exit::input_output, "{}: {} has {} values for {} points", path.string(), a.name, a.values.size(),

@@ -34,14 +34,16 @@ struct Grid {
   int ny() const { return static_cast<int>(y.size()) - 1; }
 };
 
-enum class Shape { points, closed_line };
+enum class Shape { points, closed_line, pairs };
 
-/// Points in the plane, each drawn as a vertex, or joined to one closed line.
+/// Points in the plane, each drawn as a vertex, or joined to one closed line, or to a line from each even one to the
+/// next.
 struct Points {
   double time = 0;  ///< [s]
   Shape shape = Shape::points;
   std::vector<double> x, y;  ///< [m]
   std::vector<DataArray> data;
+  std::vector<DataArray> lines = {};  ///< of the lines of Shape::pairs
 };
 
 /// The array of this name; Fault (input/output) listing the names when there is none.

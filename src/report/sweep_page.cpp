@@ -220,7 +220,8 @@ std::string sweep_page(const Sweep& sweep) {
       "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:\"><meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\"><link rel=\"icon\" href=\"data:,\"><title>{}</title><style>{}\n"
       ".chart text {{ font-size: 12px; fill: var(--ink); }} .axis path {{ stroke: var(--rule); }} .axis rect {{ fill: "
-      "none; stroke: var(--dim); }}</style></head><body><main>{}</main></body></html>\n",
+      "none; stroke: var(--dim); }} td, th {{ white-space: nowrap; "
+      "}}</style></head><body><main>{}</main></body></html>\n",
       escaped("Sweep: " + sweep.plan.title), page_style, body);
 }
 

@@ -44,6 +44,21 @@ void pass_scalars(GroupLike& g, ClockLike& clock, WallLike& wall, ProgressLike& 
   pass(g, "asleep_sum", p.asleep_sum), pass(g, "start_wall", p.start_wall);
 }
 
+/// Outputs that only some cases ask for: without them a checkpoint holds nothing of them.
+bool asks_for_more(const casefile::OutputParams& p) {
+  return p.profiles_every > 0 || p.tracks_every > 0 || p.contacts_every > 0;
+}
+
+template <class GroupLike, class ProgressLike>
+void pass_more(GroupLike& g, ProgressLike& p) {
+  pass(g, "track_times", p.track_times), pass(g, "contact_frames", p.contact_frames);
+  pass(g, "profiles_offset", p.profiles_offset), pass(g, "tracks_offset", p.tracks_offset);
+  pass(g, "tracked", p.tracked);
+  pass(g, "profile_layers", p.profiles.layers), pass(g, "profile_rows", p.profiles.rows);
+  pass(g, "profile_from", p.profiles.from), pass(g, "profile_seen", p.profiles.seen);
+  pass(g, "profile_windows", p.profiles.windows);
+}
+
 }  // namespace
 
 void save_checkpoint(const std::filesystem::path& file, Simulation& sim, const Progress& progress) {
@@ -77,6 +92,10 @@ void save_checkpoint(const std::filesystem::path& file, Simulation& sim, const P
                                                      l.carried.x, l.carried.y});
         io::Group run = root.make("run");
         pass_scalars(run, std::as_const(clock), std::as_const(wall), progress);
+        if (asks_for_more(sim.resolved().output)) {
+          io::Group more = root.make("more_output");
+          pass_more(more, progress);
+        }
       });
   writer.save();
 }
@@ -120,6 +139,10 @@ Restored load_checkpoint(const std::filesystem::path& file) {
         coupler.restore_ledger({{l.at(0), l.at(1)}, {l.at(2), l.at(3)}, {l.at(4), l.at(5)}});
         const io::Group run = root.open("run");
         pass_scalars(run, clock, wall, result.progress);
+        if (asks_for_more(resolved.output)) {
+          const io::Group more = root.open("more_output");
+          pass_more(more, result.progress);
+        }
       });
   const auto differs = [&](const char* what, const std::string& then, std::string_view now) {
     if (then != now)

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "run/profiles.hpp"
 #include "run/sampling.hpp"
 #include "run/simulation.hpp"
 
@@ -17,6 +18,12 @@ struct Progress {
   double asleep_sum = 0;                 ///< integral of the share of grains asleep over the same time [s]
   double largest_overlap = 0;            ///< of two grains over d, so far
   double start_wall = 0;                 ///< wall time of packing and pipe placing [s]
+
+  // of outputs that a case asks for
+  std::int64_t track_times = 0, contact_frames = 0;      ///< written so far
+  std::uint64_t profiles_offset = 0, tracks_offset = 0;  ///< bytes of their tables
+  Profiles::Sums profiles;
+  std::vector<std::int32_t> tracked;  ///< ids of the grains followed
 };
 
 /// Everything a run needs to go on with the same bits, in one HDF5 file written atomically.  The resolved case,

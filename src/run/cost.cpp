@@ -69,6 +69,7 @@ double smallest_width(const std::vector<double>& faces) {
 grains::Bed bed_of_tiles(const casefile::Case& c, Speeds& speeds) {
   grains::Params p = c.grains;
   p.sleep = false;
+  p.pieces = 1;
   const double least_width = std::max(least_width_of_tile * p.diameter, p.length * least_grains_in_tile / p.count);
   const bool periodic = !p.side_walls && p.walls.empty();
   const int tiles = periodic ? std::max(1, static_cast<int>(p.length / least_width)) : 1;
@@ -95,7 +96,8 @@ Lap lap_of(const Simulation& sim) { return {sim.wall(), sim.time(), sim.clock().
 
 Work Work::scaled(double factor) const {
   Work w = *this;
-  for (double* number : {&w.grains, &w.cells, &w.held_steps, &w.flow_steps, &w.grain_steps}) *number *= factor;
+  for (double* number : {&w.grains, &w.packed, &w.cells, &w.held_steps, &w.flow_steps, &w.grain_steps})
+    *number *= factor;
   w.flow_step /= factor;
   return w;
 }
@@ -110,6 +112,7 @@ Work work_of(const casefile::Case& c) {
   const double speed = f.current.mean_speed * (f.pipe.present ? speed_up_at_pipe : 1);
   Work w;
   w.grains = c.grains.count;
+  w.packed = w.grains / c.grains.pieces;
   w.cells = static_cast<double>((x.size() - 1) * (y.size() - 1));
   w.flow_step = f.algorithm == flow::Algorithm::simple
                     ? f.max_step
@@ -202,7 +205,7 @@ Speeds time_model(const casefile::Case& given, double budget) {
 Prediction predict(const Work& w, const Speeds& s) {
   const double held = w.held_steps / s.held_step_ratio, steps = w.flow_steps / s.step_ratio, items = w.grains + w.cells;
   Prediction p;
-  p.packing = w.grains * s.packing;
+  p.packing = w.packed * s.packing;
   p.spin_up = held * (w.cells * s.held_flow + w.grains * s.held_exchange);
   p.flow = steps * w.cells * s.flow;
   p.exchange = steps * w.grains * s.exchange;

@@ -10,6 +10,7 @@ namespace livebed::run {
 /// What a case asks for.
 struct Work {
   double grains = 0, cells = 0;
+  double packed = 0;                               ///< grains to pack one by one; the rest are copies of them
   double flow_step = 0;                            ///< estimate from the Courant number [s]
   double held_steps = 0;                           ///< of the flow over the fixed bed
   double flow_steps = 0;                           ///< of the flow after the release

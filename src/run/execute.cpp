@@ -120,6 +120,14 @@ base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::file
 }  // namespace
 
 void request_stop(int signal) { stop_requested = signal; }
+void obey_signals() {
+  const auto once = [](int signal) {
+    request_stop(signal);
+    std::signal(signal, SIG_DFL);
+  };
+  std::signal(SIGINT, once);
+  std::signal(SIGTERM, once);
+}
 int stop_signal() { return stop_requested; }
 
 base::Exit execute(const casefile::Case& given, const std::filesystem::path& folder, const Options& options) {
@@ -132,7 +140,17 @@ base::Exit execute(const casefile::Case& given, const std::filesystem::path& fol
   control.tell({.phase = "packing"}, true);
   const auto start = WallClock::now();
   options.say(fmt::format("packing {} grains", given.grains.count));
-  Simulation::Start ready = Simulation::prepare(given, BedCache(options.bed_cache, options.say));
+  WallClock::time_point last_word = start;
+  const auto look = [&](const grains::SettleRow& row) {
+    if (stop_requested)
+      base::fail(base::Exit::signal,
+                 "stopped while the grains settled, of which nothing is kept; remove {} and run the case again",
+                 folder.string());
+    if (!options.packing || seconds_since(last_word) < 0.2) return;
+    last_word = WallClock::now();
+    options.packing(row.time, row.mean_speed, given.grains.settled_speed);
+  };
+  Simulation::Start ready = Simulation::prepare(given, BedCache(options.bed_cache, options.say), look);
   io::write_atomically(folder / "case.resolved.toml", casefile::resolved_text(ready.resolved));
   if (!ready.convergence.empty()) {
     io::TableWriter table(folder / "packing.csv", {"time_s", "mean_speed_m_s", "max_speed_m_s", "height_m"});

@@ -8,6 +8,7 @@
 #include "grains/sleep.hpp"
 #include "io/file.hpp"
 #include "io/paraview.hpp"
+#include "run/tracks.hpp"
 
 namespace livebed::run {
 
@@ -51,6 +52,22 @@ Observers::Observers(const std::filesystem::path& folder, const Simulation& sim,
   io::make_folder(folder / "grains");
   io::make_folder(folder / "checkpoints");
   if (progress.frames == 0) io::write_atomically(folder / "paraview-state.py", io::paraview_state(folder));
+  const casefile::OutputParams& asked = sim.resolved().output;
+  if (asked.profiles_every > 0) {
+    profiles_.emplace(sim.resolved());
+    if (progress.profiles_offset > 0) profiles_->restore(progress.profiles);
+    profile_table_.emplace(open_table(folder / "profiles.csv", profile_columns(), progress.profiles_offset));
+    progress_.profiles_offset = profile_table_->offset();
+  }
+  if (asked.tracks_every > 0) {
+    if (progress.tracked.empty()) progress_.tracked = choose_tracks(sim, progress_.original.level);
+    track_table_.emplace(open_table(folder / "tracks.csv", track_columns(), progress.tracks_offset));
+    progress_.tracks_offset = track_table_->offset();
+  }
+  if (asked.contacts_every > 0) {
+    io::make_folder(folder / "contacts");
+    contact_files_.emplace(folder / "contacts.pvd", progress.contact_frames > 0 ? sim.time() : -1.0);
+  }
   if (progress.frames == 0 && sim.resolved().flow.pipe.present) {
     const flow::PipeParams& pipe = sim.resolved().flow.pipe;
     io::write_vtp(folder / "pipe.vtp", io::circle_line(pipe.x, pipe.y, pipe.diameter));
@@ -64,6 +81,7 @@ void Observers::observe(Simulation& sim) {
   const bool bed_due = due(time, progress_.bed_rows, every.bed_every) && sim.resolved().grains.count > 0;
   if (due(time, progress_.series_rows, every.series_every) || bed_due) write_series(sim, bed_due);
   if (due(time, progress_.frames, every.fields_every)) write_frame(sim);
+  write_more(sim);
   const bool save = due(time, progress_.checkpoints, every.checkpoint_every);
   if (save) ++progress_.checkpoints;
   sim.wall().output += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -111,10 +129,32 @@ void Observers::write_frame(Simulation& sim) {
   ++progress_.frames;
 }
 
+void Observers::write_more(const Simulation& sim) {
+  const casefile::OutputParams& every = sim.resolved().output;
+  if (profiles_ && profiles_->add(sim)) {
+    for (const std::vector<double>& row : profiles_->take(sim)) profile_table_->row(row);
+    progress_.profiles_offset = profile_table_->offset();
+  }
+  if (track_table_ && due(sim.time(), progress_.track_times, every.tracks_every)) {
+    for (const std::vector<double>& row : track_rows(sim, progress_.tracked)) track_table_->row(row);
+    progress_.tracks_offset = track_table_->offset();
+    ++progress_.track_times;
+  }
+  if (contact_files_ && due(sim.time(), progress_.contact_frames, every.contacts_every)) {
+    const std::string file = fmt::format("contacts/contacts_{:06d}.vtp", progress_.contact_frames);
+    io::write_vtp(folder_ / file, contact_lines(sim));
+    contact_files_->add(sim.time(), file);
+    ++progress_.contact_frames;
+  }
+}
+
 void Observers::checkpoint(Simulation& sim) {
   const auto start = std::chrono::steady_clock::now();
   series_.sync();
   bed_.sync();
+  if (profile_table_) profile_table_->sync();
+  if (track_table_) track_table_->sync();
+  if (profiles_) progress_.profiles = profiles_->sums();
   save_checkpoint(checkpoint_path(folder_, sim.clock().flow_steps), sim, progress_);
   std::vector<std::filesystem::path> files = list_checkpoints(folder_);
   for (std::size_t k = 0; k + 2 < files.size(); ++k) std::filesystem::remove(files[k]);

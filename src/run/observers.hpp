@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "io/table.hpp"
@@ -10,9 +11,9 @@
 
 namespace livebed::run {
 
-/// What a run leaves in its folder while it goes: series.csv, bed.csv, ParaView files, checkpoints.  Each has a
-/// schedule in simulated time; what has been written is counted in Progress, so that a resumed run writes the same
-/// bytes.
+/// What a run leaves in its folder while it goes: series.csv, bed.csv, ParaView files, checkpoints and, where the case
+/// asks for them, profiles.csv, tracks.csv and contact forces.  Each has a schedule in simulated time; what has been
+/// written is counted in Progress, so that a resumed run writes the same bytes.
 class Observers {
 public:
   /// A new folder's files (progress all zero), or the continuation of old ones cut at the offsets of the progress.
@@ -34,12 +35,16 @@ private:
   void write_series(const Simulation& sim, bool bed_due);
   void write_frame(Simulation& sim);
   void write_bed(double time, const std::vector<double>& line);
+  void write_more(const Simulation& sim);
 
   std::filesystem::path folder_;
   Sampler sampler_;
   Progress progress_;
   io::TableWriter series_, bed_;
   io::TimeSeries flow_files_, grain_files_;
+  std::optional<Profiles> profiles_;
+  std::optional<io::TableWriter> profile_table_, track_table_;
+  std::optional<io::TimeSeries> contact_files_;
   std::vector<double> times_, depths_;  ///< S/D so far
   double scour_depth_ = 0;
 };

@@ -8,6 +8,7 @@
 #include "base/loops.hpp"
 #include "case/check.hpp"
 #include "grains/measures.hpp"
+#include "io/lammps.hpp"
 #include "run/sampling.hpp"
 #include "run/shear.hpp"
 
@@ -51,15 +52,50 @@ std::string fastest_place(const flow::Mesh& m, const flow::State& s) {
                      largest, at_i, at_j, m.centre_x(at_i), m.centre_y(at_j));
 }
 
+/// The grains of bed.file, come to rest under the contacts of this case and, when it tells a thickness, cut to it.
+grains::Packing bed_of_file(const casefile::Case& given, const grains::Params& awake, const grains::OnLook& on_look) {
+  const io::LammpsBed file = io::read_lammps(given.bed_file);
+  const auto refuse = [&](const std::string& why) {
+    base::fail(base::Exit::invalid_case, "bed.file = {}: {}", given.bed_file, why);
+  };
+  constexpr double round_off = 1e-9;
+  if (std::abs(file.length - awake.length) > round_off * awake.length)
+    refuse(fmt::format("its box is {} m long, mesh.length = {} m", file.length, awake.length));
+  const int count = static_cast<int>(file.x.size());
+  if (given.is_given("bed.count") && count != given.grains.count)
+    refuse(fmt::format("it holds {} grains, not bed.count = {}", count, given.grains.count));
+  grains::Params p = awake;
+  p.count = count;
+  grains::Packing packing{.bed = grains::make_bed(p), .convergence = {}};
+  grains::State& s = packing.bed.state;
+  std::copy(file.x.begin(), file.x.end(), s.x.begin()), std::copy(file.y.begin(), file.y.end(), s.y.begin());
+  std::copy(file.u.begin(), file.u.end(), s.u.begin()), std::copy(file.v.begin(), file.v.end(), s.v.begin());
+  std::copy(file.omega.begin(), file.omega.end(), s.omega.begin());
+  std::copy(file.diameter.begin(), file.diameter.end(), s.diameter.begin());
+  packing.convergence = grains::settle(packing.bed, on_look);
+  if (p.thickness > 0) {
+    const double before = packing.convergence.back().time;
+    for (grains::SettleRow row : grains::level(packing.bed, p.thickness, on_look)) {
+      row.time += before;
+      packing.convergence.push_back(row);
+    }
+  }
+  return packing;
+}
+
 }  // namespace
 
-Simulation::Start Simulation::prepare(const casefile::Case& given, const BedCache& cache) {
+Simulation::Start Simulation::prepare(const casefile::Case& given, const BedCache& packed,
+                                      const grains::OnLook& on_look) {
   Start start{given, {}, {}};
   if (given.grains.count == 0) return start;
-  grains::Params awake = given.grains;  // nobody sleeps before the bed has come to rest
+  const bool from_file = !given.bed_file.empty();
+  const BedCache& cache = from_file ? BedCache() : packed;  // a file's name does not tell what is in it
+  grains::Params awake = given.grains;                      // nobody sleeps before the bed has come to rest
   awake.sleep = false;
   const std::string key = packing_key(given);
-  grains::Packing packing = cache.get(key, awake, [&] { return grains::pack(awake); });
+  grains::Packing packing = cache.get(
+      key, awake, [&] { return from_file ? bed_of_file(given, awake, on_look) : grains::pack(awake, on_look); });
   const int count = packing.bed.params.count;
   if (given.is_given("bed.count") && count != given.grains.count) {
     base::fail(base::Exit::invalid_case,
@@ -72,7 +108,7 @@ Simulation::Start Simulation::prepare(const casefile::Case& given, const BedCach
     const std::string with_pipe = fmt::format("{}pipe at {} m, {} m, {} m wide\n", key, pipe.x, pipe.y, pipe.diameter);
     packing = cache.get(with_pipe, awake, [&] {
       const double before = packing.convergence.back().time;
-      for (grains::SettleRow row : grains::place_pipe(packing.bed, pipe)) {
+      for (grains::SettleRow row : grains::place_pipe(packing.bed, pipe, grains::lowering_speed, on_look)) {
         row.time += before;
         packing.convergence.push_back(row);
       }
@@ -114,11 +150,15 @@ void Simulation::spin_up_step() {
     coupler_.load_flow(bed_.state, flow_, dt, true);
   }
   advance_flow(dt);
+  if (has_grains()) coupler_.hold(bed_.state);
   last_step_ = dt;
   ++clock_.flow_steps;
 }
 
-void Simulation::release() { clock_.released = true; }
+void Simulation::release() {
+  clock_.released = true;
+  coupler_.let_go();
+}
 
 void Simulation::step() {
   const double grain_step = case_.grains.step;

@@ -37,7 +37,8 @@ public:
     std::vector<grains::SettleRow> convergence;
   };
   /// Throws Fault: invalid case when bed.count is not what bed.cut leaves, and what pack and place_pipe throw.
-  static Start prepare(const casefile::Case& given, const BedCache& cache = BedCache());
+  static Start prepare(const casefile::Case& given, const BedCache& cache = BedCache(),
+                       const grains::OnLook& on_look = {});
 
   /// resolved: the case of `prepare`, or of a checkpoint with its bed.
   Simulation(const casefile::Case& resolved, grains::Bed bed);

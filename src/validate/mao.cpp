@@ -15,6 +15,7 @@
 #include "io/table.hpp"
 #include "report/references.hpp"
 #include "run/bed_cache.hpp"
+#include "run/checkpoint.hpp"
 #include "run/execute.hpp"
 #include "validate/picture.hpp"
 #include "validate/references.hpp"
@@ -46,7 +47,7 @@ struct Scour {
   std::vector<std::vector<double>> lines;  ///< over the original bed [D]
 };
 
-/// Runs or resumes what is missing.
+/// Runs or resumes what is missing, until a signal.
 void finish(const casefile::Case& c, const fs::path& folder, const Tell& tell) {
   run::Options options;
   options.bed_cache = run::default_bed_cache();
@@ -59,7 +60,8 @@ void finish(const casefile::Case& c, const fs::path& folder, const Tell& tell) {
                      t, end, depth, speed, left / 3600));
   };
   base::Exit exit = base::Exit::ok;
-  if (!fs::exists(folder)) {
+  if (run::list_checkpoints(folder).empty()) {
+    fs::remove_all(folder);  // stopped while its grains settled
     exit = run::execute(c, folder, options);
   } else {
     const fs::path summary = folder / "summary.json";
@@ -67,9 +69,9 @@ void finish(const casefile::Case& c, const fs::path& folder, const Tell& tell) {
         fs::exists(summary) && nlohmann::json::parse(io::read_file(summary)).value("time_s", -1.0) >= c.time.end;
     if (!ended) exit = run::resume(folder, c.time.end, options);
   }
-  if (exit != base::Exit::ok)
-    base::fail(base::Exit::stopped_by_limit, "{} was stopped before its end; the same command goes on with it",
-               folder.string());
+  if (exit == base::Exit::signal)
+    tell(fmt::format("{} was stopped before its end: this is what there is so far; the same command goes on with it",
+                     folder.string()));
 }
 
 Scour read(const casefile::Case& c, const fs::path& folder, unsigned seed) {
@@ -169,15 +171,18 @@ std::string csv_of_profiles(const std::vector<Scour>& all) {
 }
 
 Result hold_against_mao(const Experiment& e, const Tell& tell) {
+  run::obey_signals();
   std::vector<Scour> all;
   for (unsigned seed = 1; seed <= e.ends.size(); ++seed) {
     std::vector<std::string> keys = {fmt::format("bed.seed={}", seed)};
     if (e.ends[seed - 1] > 0) keys.push_back(fmt::format("time.end={}", e.ends[seed - 1]));
     const casefile::Case c = casefile::read_text(e.text, e.name, keys);
     const fs::path folder = fs::path(kept_scours) / fmt::format("{}-seed{}", e.name, seed);
-    finish(c, folder, tell);
+    if (run::stop_signal() == 0) finish(c, folder, tell);
+    if (!fs::exists(folder / "summary.json")) continue;
     all.push_back(read(c, folder, seed));
   }
+  if (all.empty()) base::fail(base::Exit::signal, "stopped before any seed of {} had a checkpoint", e.name);
   const io::Table measured = io::parse_table(report::mao_depth, "mao1986_livebed_depth.csv");
   const io::Table two_phase = io::parse_table(sedfoam_depth, "sedfoam_kepsilon_livebed_depth.csv");
   const double scale = all.front().resolved.time_scale / report::mao_time_scale;
