@@ -105,7 +105,7 @@ void add_grains(std::vector<Row>& s) {
                   .says("change of the contact force, over what presses the grain, that wakes it"));
   s.push_back(real("grains.sleep_drag", "-", grains(&G::sleep_drag))
                   .within(1e-6, 10)
-                  .says("change of the fluid's force, over the submerged weight, that wakes a grain"));
+                  .says("change of the fluid's force, over what presses the grain, that wakes it"));
 }
 
 void add_contact(std::vector<Row>& s) {

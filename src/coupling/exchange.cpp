@@ -179,7 +179,8 @@ double Coupler::response_time(const grains::State& g, int k) const {
 double Coupler::step_limit(const grains::State& g) const {
   double limit = std::numeric_limits<double>::infinity();
   if (params_.voidage == Voidage::off || params_.mode != Mode::two_way) return limit;
-  for (int k = 0; k < g.count(); ++k) limit = std::min(limit, response_time(g, k));
+  for (int k = 0; k < g.count(); ++k)
+    if (still_[g.id[k]] == 0) limit = std::min(limit, response_time(g, k));
   return step_over_response * limit;
 }
 

@@ -19,7 +19,7 @@ inline constexpr double voidage_least = 0.3;
 
 /// Largest step of the flow over the response time of any grain [-].  The water learns a step late what the grains do,
 /// through drag and through the room that they leave: in a dense bed that swings more and more beyond 0.7.
-inline constexpr double step_over_response = 0.3;
+inline constexpr double step_over_response = 0.5;
 
 /// The bed counts as packed, and its water as unmixed, from this share of the packed solid fraction on [-].
 inline constexpr double packed_solid = 0.55, packed_share = 0.9;
@@ -79,7 +79,7 @@ public:
   /// Step 4.
   void collect(const grains::State& g, const flow::Solver& flow, double dt);
 
-  /// Longest step that the exchange bears [s], from the drag of the last one.
+  /// Longest step that the exchange bears [s], from the drag of the last one on grains that may move.
   double step_limit(const grains::State& g) const;
 
   /// Solid volume fraction in cells [-] (spheres in the slab), smoothed by the kernel.

@@ -19,33 +19,39 @@ double kernel_integral(double s) {
 
 }  // namespace
 
+Edges::Edges(std::vector<double> at) : at_(std::move(at)) {
+  narrowest_ = widest_ = at_[1] - at_[0];
+  for (int k = 1; k < volumes(); ++k) {
+    narrowest_ = std::min(narrowest_, at_[k + 1] - at_[k]);
+    widest_ = std::max(widest_, at_[k + 1] - at_[k]);
+  }
+  constexpr double most_bins_a_volume = 16;
+  const double bins = std::ceil(std::min((last() - first()) / narrowest_, most_bins_a_volume * volumes()));
+  bins_per_length_ = bins / (last() - first());
+  for (int bin = 0, k = 0; bin < bins; ++bin) {
+    while (k + 1 < volumes() && at_[k + 1] <= first() + bin / bins_per_length_) ++k;
+    from_.push_back(std::max(0, k - 1));  // a place at a bin's very beginning may round into the bin before
+  }
+}
+
 Transfer::Transfer(const flow::Staggering& at, const base::Field& aperture, int first_column, int last_column,
                    double half_width)
     : half_width_(half_width), first_column_(first_column), first_row_(at.j0), open_(aperture.nx(), aperture.ny()) {
   // The volumes of u begin at the centre of cell 0, those of scalars and of v at the inlet; y likewise.
-  double edge = at.shift_x ? 0.5 * at.hx[3] : 0.0;
-  edges_x_.push_back(edge);
-  for (int i = first_column; i <= last_column; ++i) edges_x_.push_back(edge += at.width[i + 2]);
-  edge = at.shift_y ? 0.5 * at.hy[3] : 0.0;
-  edges_y_.push_back(edge);
-  for (int j = at.j0; j < at.j1; ++j) edges_y_.push_back(edge += at.height[j + 2]);
-
-  const auto narrowest = [](const std::vector<double>& edges) {
-    double width = edges[1] - edges[0];
-    for (std::size_t k = 0; k + 1 < edges.size(); ++k) width = std::min(width, edges[k + 1] - edges[k]);
-    return width;
-  };
-  widest_ = static_cast<int>(2 * half_width / std::min(narrowest(edges_x_), narrowest(edges_y_))) + 2;
+  std::vector<double> x{at.shift_x ? 0.5 * at.hx[3] : 0.0}, y{at.shift_y ? 0.5 * at.hy[3] : 0.0};
+  for (int i = first_column; i <= last_column; ++i) x.push_back(x.back() + at.width[i + 2]);
+  for (int j = at.j0; j < at.j1; ++j) y.push_back(y.back() + at.height[j + 2]);
+  edges_x_ = Edges(std::move(x)), edges_y_ = Edges(std::move(y));
+  widest_ = static_cast<int>(2 * half_width / std::min(edges_x_.narrowest(), edges_y_.narrowest())) + 2;
 
   for (int j = at.j0; j < at.j1; ++j)
-    for (int i = first_column; i <= last_column; ++i)
-      open_(i, j) = aperture(i, j) > 0 ? at.volume(i, j) / (at.width[i + 2] * at.height[j + 2]) : 0.0;
+    for (int i = first_column; i <= last_column; ++i) {
+      const double open = at.volume(i, j) / (at.width[i + 2] * at.height[j + 2]);
+      open_(i, j) = aperture(i, j) > 0 && open >= least_open ? open : 0.0;
+    }
 
   // Bins at least one kernel wide plus the volumes it touches at either end.
-  double widest_volume = 0;
-  for (std::size_t k = 0; k + 1 < edges_x_.size(); ++k)
-    widest_volume = std::max(widest_volume, edges_x_[k + 1] - edges_x_[k]);
-  const double length = edges_x_.back() - edges_x_.front(), wanted = 2 * half_width + 2 * widest_volume;
+  const double length = edges_x_.last() - edges_x_.first(), wanted = 2 * half_width + 2 * edges_x_.widest();
   const int bins = std::max(1, static_cast<int>(length / wanted));
   bin_first_.assign(bins + 1, 0);
 }
@@ -58,7 +64,7 @@ void Transfer::locate(const grains::Array& x, const grains::Array& y, const std:
   order_.resize(n);
   weight_x_.resize(static_cast<std::size_t>(n) * widest_);
   weight_y_.resize(static_cast<std::size_t>(n) * widest_);
-  const double low = edges_x_.front(), scale = bins / (edges_x_.back() - low);
+  const double low = edges_x_.first(), scale = bins / (edges_x_.last() - low);
   base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int k) {
     for (int m = k * grains_a_block; m < std::min(n, (k + 1) * grains_a_block); ++m) {
       const int grain = which[m];
@@ -76,20 +82,16 @@ void Transfer::locate(const grains::Array& x, const grains::Array& y, const std:
 
 namespace {
 
-/// First volume and number of volumes between low and high; volumes are nearly even, so a guess and a walk find them.
-int span(const std::vector<double>& edges, double low, double high, int& count) {
-  const int last = static_cast<int>(edges.size()) - 2;
-  int a = static_cast<int>((low - edges.front()) / (edges.back() - edges.front()) * (last + 1));
-  a = std::clamp(a, 0, last);
-  while (a > 0 && edges[a] > low) --a;
-  while (a < last && edges[a + 1] <= low) ++a;
-  int b = a;
-  while (b < last && edges[b + 1] < high) ++b;
-  count = b - a + 1;
-  return a;
+/// First volume and number of volumes between low and high.
+int span(const Edges& edges, double low, double high, int& count) {
+  const int first = edges.volume_of(low);
+  int last = first;
+  while (last + 1 < edges.volumes() && edges[last + 1] < high) ++last;
+  count = last - first + 1;
+  return first;
 }
 
-void weigh(const std::vector<double>& edges, int first, int count, double center, double half_width, double* weight) {
+void weigh(const Edges& edges, int first, int count, double center, double half_width, double* weight) {
   double before = kernel_integral((edges[first] - center) / half_width);
   for (int k = 0; k < count; ++k) {
     const double after = kernel_integral((edges[first + k + 1] - center) / half_width);
@@ -103,8 +105,8 @@ void weigh(const std::vector<double>& edges, int first, int count, double center
 void Transfer::locate_one(int n, double x, double y) {
   // The volumes of u begin and end half a cell inside the box, those of v above the floor: a grain beyond counts at the
   // edge, or a kernel narrower than that half cell would find nothing.
-  x = std::clamp(x, edges_x_.front(), edges_x_.back());
-  y = std::clamp(y, edges_y_.front(), edges_y_.back());
+  x = std::clamp(x, edges_x_.first(), edges_x_.last());
+  y = std::clamp(y, edges_y_.first(), edges_y_.last());
   Footprint& f = footprint_[n];
   double *wx = &weight_x_[static_cast<std::size_t>(n) * widest_],
          *wy = &weight_y_[static_cast<std::size_t>(n) * widest_];
@@ -129,7 +131,7 @@ void Transfer::locate_one(int n, double x, double y) {
 
 bool Transfer::move_to_nearest_water(int n, double x, double y) {
   Footprint& f = footprint_[n];
-  const int columns = static_cast<int>(edges_x_.size()) - 1, rows = static_cast<int>(edges_y_.size()) - 1;
+  const int columns = edges_x_.volumes(), rows = edges_y_.volumes();
   const int a = f.i0 - first_column_, b = f.j0 - first_row_;
   double nearest = std::numeric_limits<double>::infinity();
   Footprint found{0, 1, 0, 1};

@@ -10,10 +10,40 @@
 
 namespace livebed::coupling {
 
+/// Edges of a row of volumes of any widths [m], and a table that finds the volume of a place at once.
+class Edges {
+public:
+  Edges() = default;
+  explicit Edges(std::vector<double> at);
+  double operator[](int k) const { return at_[k]; }
+  int volumes() const { return static_cast<int>(at_.size()) - 1; }
+  double first() const { return at_.front(); }
+  double last() const { return at_.back(); }
+  double narrowest() const { return narrowest_; }
+  double widest() const { return widest_; }
+  /// The volume that x is in, or the nearest one.
+  int volume_of(double x) const {
+    const int bin =
+        std::clamp(static_cast<int>((x - first()) * bins_per_length_), 0, static_cast<int>(from_.size()) - 1);
+    int k = from_[bin];
+    while (k + 1 < volumes() && at_[k + 1] <= x) ++k;
+    return k;
+  }
+
+private:
+  std::vector<double> at_;
+  double narrowest_ = 0, widest_ = 0, bins_per_length_ = 0;
+  std::vector<int> from_;  // the volume in which a bin of the table begins
+};
+
+/// A volume less open than this exchanges nothing with grains [-]: one grain would fill the sliver of water that it
+/// holds, and what the grain does to so little of it has no bounds.
+inline constexpr double least_open = 0.25;
+
 /// Spreads what belongs to grains over control volumes of the grid, and averages the grid's values at grains, with one
 /// and the same kernel: (1 - s^2)^2 of the distance s over the half-width, integrated over each volume, so that the
 /// size of the cells does not matter (they may be smaller than a grain).  Weights are proportional to the open part of
-/// a volume and sum to one: nothing is lost at pipe, floor and ends.
+/// a volume, nothing for slivers, and sum to one: nothing is lost at pipe, floor and ends.
 class Transfer {
 public:
   Transfer() = default;
@@ -96,9 +126,9 @@ private:
 
   double half_width_ = 0;
   int first_column_ = 0, first_row_ = 0;
-  int widest_ = 0;                         // most volumes a kernel spans in one direction
-  std::vector<double> edges_x_, edges_y_;  // of the volumes that may receive
-  base::Field open_;                       // open fraction of each
+  int widest_ = 0;           // most volumes a kernel spans in one direction
+  Edges edges_x_, edges_y_;  // of the volumes that may receive
+  base::Field open_;         // open fraction of each
   std::vector<Footprint> footprint_;
   std::vector<int> grain_;                   // which grain each is
   std::vector<double> weight_x_, weight_y_;  // widest_ entries a grain; those along y hold the normalisation

@@ -151,6 +151,33 @@ std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look) {
 
 namespace {
 
+/// Gives a bed made of another's grains what their contacts remember; origin: the place there of each id, -1: none.
+void carry_histories(const Bed& from, const std::vector<int>& origin, Bed& to) {
+  advance(to, 0);  // makes its lists
+  const Contacts& old = from.contacts;
+  Contacts& now = to.contacts;
+  const State& s = to.state;
+  for (int i = 0; i < s.count(); ++i) {
+    const int was = origin[s.id[i]], slice = i / lanes;
+    if (was < 0) continue;
+    for (std::ptrdiff_t row = now.first[slice]; row < now.last[slice]; ++row) {
+      const std::ptrdiff_t slot = row * lanes + i % lanes;
+      const int j = now.neighbour[slot] < s.count() ? origin[s.id[now.neighbour[slot]]] : -1;
+      const std::ptrdiff_t before = j < 0 ? -1 : slot_of(old, was, j);
+      if (before < 0) continue;
+      now.spring[slot] = old.spring[before];
+      if (!now.rolling.empty()) now.rolling[slot] = old.rolling[before];
+    }
+    const int there = old.wall_place[was / lanes], here = now.wall_place[slice];
+    if (there < 0 || here < 0) continue;
+    for (int wall = 0; wall < wall_slots; ++wall) {
+      now.wall_spring[wall][here * lanes + i % lanes] = old.wall_spring[wall][there * lanes + was % lanes];
+      if (!now.rolling.empty())
+        now.wall_rolling[wall][here * lanes + i % lanes] = old.wall_rolling[wall][there * lanes + was % lanes];
+    }
+  }
+}
+
 /// The bed with the grains for which keep(i) holds and, if asked for, more of them in rows above; the ids are new.
 template <class Keep>
 Bed changed(const Bed& bed, Keep&& keep, int more) {
@@ -177,6 +204,8 @@ Bed changed(const Bed& bed, Keep&& keep, int more) {
   }
   result.pipe = bed.pipe;
   result.steps = bed.steps;
+  kept.resize(p.count, -1);
+  carry_histories(bed, kept, result);
   return result;
 }
 
@@ -246,11 +275,14 @@ Bed side_by_side(const Bed& tile, int tiles) {
   p.length *= tiles;
   p.pieces *= tiles;
   Bed bed = make_bed(p);
+  std::vector<int> origin(p.count);
   for (int i = 0; i < p.count; ++i) {
     bed.state.x[i] = tile.state.x[i % n] + i / n * tile.params.length;
     bed.state.y[i] = tile.state.y[i % n];
     bed.state.diameter[i] = tile.state.diameter[i % n];
+    origin[i] = i % n;
   }
+  if (tile.contacts.built()) carry_histories(tile, origin, bed);
   return bed;
 }
 

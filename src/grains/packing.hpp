@@ -39,8 +39,8 @@ Bed scattered(const Params& given);
 std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look = {});
 
 /// Brings a bed at rest to a level [m]: heaps more grains onto it where its mean level is not well above, takes away
-/// every grain whose centre is higher, and lets the rest settle anew.  The number of grains changes, and what contacts
-/// remember is lost.
+/// every grain whose centre is higher, and lets the rest settle anew.  The number of grains changes; contacts between those
+/// that stay remember what they did.
 std::vector<SettleRow> level(Bed& bed, double height, const OnLook& on_look = {});
 
 /// Makes a bed at rest: lattice or scattered (start), settle and, when a thickness is given, level; the number of
@@ -49,7 +49,7 @@ std::vector<SettleRow> level(Bed& bed, double height, const OnLook& on_look = {}
 Packing pack(const Params& given, const OnLook& on_look = {});
 
 /// Copies of a bed side by side, a long bed in the time a short one takes to pack.  The period makes the seams fit.
-/// What the contacts remember is not copied: friction builds up anew within a few steps, settle if that matters.
+/// Contacts remember what those of the tile do.
 Bed side_by_side(const Bed& tile, int tiles);
 
 inline constexpr double lowering_speed = 0.05;  ///< [m/s]

@@ -210,13 +210,12 @@ void wake_by_fluid(Bed& bed) {
   const State& s = bed.state;
   Records& r = bed.records;
   const int slices = bed.contacts.slices();
-  const double limit_d3 = bed.params.sleep_drag * weight(bed.params, 1);
   base::for_each_item(0, slices, [&](int slice) {
     r.turn[slice] = 0;
     if (r.asleep[slice] == 0) return;
     each_grain(s, slice, [&](int i) {
       const base::Vec2 now = fluid_force(s.fluid, i);
-      const double limit = limit_d3 * base::cube(s.diameter[i]);
+      const double limit = bed.params.sleep_drag * s.sleep.load[i];
       r.turn[slice] |= square(now.x - s.sleep.fluid_x[i]) + square(now.y - s.sleep.fluid_y[i]) > square(limit);
     });
     if (r.turn[slice] != 0) take_histories(s, bed.contacts, r, slice);

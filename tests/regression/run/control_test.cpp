@@ -84,6 +84,16 @@ TEST_F(Control, stops_as_on_a_signal_and_only_one_program_runs_a_folder) {
   EXPECT_EQ(run("resume led --quiet --wall-limit 1e-6").exit, 6);
 }
 
+TEST_F(Control, stops_on_a_signal_while_the_grains_settle) {
+  const pid_t child = start({"run", LIVEBED_SOURCE_DIR "/cases/quick", "--no-bed-cache", "--out", "led", "--set",
+                             "bed.settled_speed=1e-12", "--set", "bed.settle_time=1000"});
+  ASSERT_TRUE(in_phase("led", "packing"));
+  ::kill(child, SIGTERM);
+  EXPECT_EQ(ended(child), 128 + SIGTERM);
+  expect_contains(content(*this / "led/log.txt"), {"stopped while the grains settled", "remove led and run"});
+  EXPECT_FALSE(run::is_running(*this / "led"));
+}
+
 TEST_F(Control, a_killed_run_leaves_no_lock) {
   const pid_t child = begin("led", "50");
   ASSERT_TRUE(wait([&] { return !run::list_checkpoints(*this / "led").empty(); }));

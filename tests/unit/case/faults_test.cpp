@@ -171,6 +171,14 @@ const Bad bad_cases[] = {
     {"cut_beside_thickness", "[bed]\nthickness = 0.05\ncut = 0.04\n",
      "bad.toml:5: bed.cut = 0.04 m contradicts bed.thickness = 0.05 m, to which the bed is cut: it goes with "
      "bed.count"},
+    {"pieces_too_short", "[bed]\npieces = 6\n",
+     "bad.toml:4: bed.pieces = 6 are 41.7 grains long each; 50 are needed, so at most 5 pieces"},
+    {"pieces_between_walls", "[bed]\npieces = 2\nside_walls = true\n",
+     "bad.toml:4: bed.pieces = 2 fit together only without walls: remove bed.walls and bed.side_walls"},
+    {"pieces_of_a_file", "[bed]\npieces = 2\nfile = \"one.data\"\n",
+     "bad.toml:4: bed.pieces = 2 are for a bed that is packed; bed.file gives one"},
+    {"pieces_that_are_not_alike", "[bed]\npieces = 2\ncount = 6241\n",
+     "bad.toml:4: bed.count = 6241 cannot be divided into bed.pieces = 2 alike"},
     {"level_beside_thickness", "[bed]\nthickness = 0.05\nlevel = 0.04\n",
      "bad.toml:5: bed.level = 0.04 m contradicts bed.thickness = 0.05 m: it goes with bed.count"},
     // sizes

