@@ -164,6 +164,8 @@ void derive(Case& c) {
   derive_current(c);
   flow::PipeParams& pipe = c.flow.pipe;
   pipe.y = c.bed_thickness + (pipe.gap_ratio + 0.5) * pipe.diameter;
+  const bool voids_change = c.grains.count > 0 && c.coupling.voidage == coupling::Voidage::on;
+  pipe.least_open = voids_change ? flow::volume_least_among_grains : flow::volume_least;
   derive_times(c);
   if (c.is_given("contact.damping") && c.grains.damping == 0) c.grains.restitution = 1;
   c.grains = grains::derive(c.grains);

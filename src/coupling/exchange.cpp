@@ -136,7 +136,7 @@ void Coupler::wake(const grains::State& g) {
 void Coupler::forget_still() {
   std::fill(still_.begin(), still_.end(), 0);
   for (Field* sum : {&still_solid_, &still_beta_u_, &still_beta_v_, &still_damping_}) sum->fill(0.0);
-  located_ = false;
+  located_ = voids_filled_ = false;
 }
 
 template <class Rests>
@@ -153,6 +153,7 @@ void Coupler::settle(const grains::State& g, Rests&& rests) {
     still_beta_[id] = g.fluid.beta[k], still_volume_[id] = base::sphere_volume(g.diameter[k]);
   }
   add_still(still, 1);
+  voids_filled_ = false;
 }
 
 void Coupler::hold(const grains::State& g) {
@@ -246,7 +247,7 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   flow::State& s = flow.state;
   flow::Load& load = s.load;
   if (!located_) locate(g);
-  if (!voids_filled_) fill_voids(g, flow, dt);
+  if (!voids_filled_) fill_voids(g, flow, held ? 0.0 : dt);  // held, they leave no room and take none
   const int before = load.top;
   top_ = rows_with_grains(g);
   const bool damped = params_.turbulence == Turbulence::damped, bounded = params_.turbulence != Turbulence::untouched,

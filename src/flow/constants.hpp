@@ -23,7 +23,10 @@ inline constexpr double epsilon_floor = 1e-12;   ///< [m2/s3]; with k_floor: nut
 inline constexpr double nut_over_nu_most = 1e5;  ///< only hit by a start from rest, where epsilon is tiny and k not yet
 inline constexpr double log_argument_least = 2.718281828459045;  ///< y/z0 is held above e: the log law ends there
 inline constexpr double fixed_row = 1e14;     ///< factor that makes a row of a line system say c = given value
-inline constexpr double volume_least = 0.05;  ///< cells with less open volume count as solid: the pressure in slivers drifts without bounds [-]
+inline constexpr double volume_least = 1e-6;  ///< cells with less open volume count as solid [-]
+/// The same beside moving grains: their room changes with every step, and the pressure in slivers, which moves little
+/// water, answers with hundreds of kPa until the flow breaks down.  Costs the force on the pipe its second order.
+inline constexpr double volume_least_among_grains = 0.05;
 inline constexpr double wall_distance_least =
     0.01;  ///< of a velocity from the pipe, in cells: friction of slivers stays finite [-]
 inline constexpr double aperture_least = 1e-6;  ///< faces with less opening count as closed [-]

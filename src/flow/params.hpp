@@ -1,4 +1,5 @@
 #pragma once
+#include "flow/constants.hpp"
 
 /// Plain parameters of the flow: what a case file says, in SI units.  Filled by `case`, read by `flow`.
 namespace livebed::flow {
@@ -41,7 +42,8 @@ struct PipeParams {
   double y = 0;            ///< centre above the floor [m]; derived from the bed level and gap_ratio
   double gap_ratio = 0;    ///< e/D [-], from the level of the bed to the pipe's lowest point; negative = embedded
   Wall wall = Wall::smooth;
-  double roughness = 0;  ///< ks [m] of the rough law
+  double roughness = 0;              ///< ks [m] of the rough law
+  double least_open = volume_least;  ///< cells with less open volume count as solid [-]
 };
 
 /// The approaching current.

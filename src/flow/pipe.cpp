@@ -69,7 +69,7 @@ void cut_pipe(Mesh& m) {
   // A face is as closed as the cells it joins: slivers would only cost the pressure solve its accuracy.
   for (int j = 0; j < m.ny; ++j)
     for (int i = 0; i < m.nx; ++i)
-      if (m.volume(i, j) < volume_least) {
+      if (m.volume(i, j) < m.pipe.least_open) {
         m.volume(i, j) = 0;
         m.aperture_x(i, j) = m.aperture_x(i + 1, j) = m.aperture_y(i, j) = m.aperture_y(i, j + 1) = 0;
       }

@@ -35,7 +35,7 @@ void visit_pairs(const Sweep& k, const Bed& bed, int i, const Visit& visit) {
   const Contacts& c = bed.contacts;
   const int slice = i / lanes, lane = i % lanes;
   const double r = 0.5 * s.diameter[i];
-  for (int row = c.first[slice]; row < c.first[slice + 1]; ++row) {
+  for (int row = c.first[slice]; row < c.last[slice]; ++row) {
     const std::size_t slot = static_cast<std::size_t>(row) * lanes + lane;
     const int j = c.neighbour[slot];
     if (j <= i || j >= s.count()) continue;

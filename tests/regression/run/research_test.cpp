@@ -54,7 +54,7 @@ TEST_F(Research, outputs_go_on_without_a_gap_and_change_no_bit_of_the_run) {
   const auto frames = io::read_pvd(*this / "whole/contacts.pvd");
   ASSERT_EQ(frames.size(), 4u);
   const io::Points lines = io::read_vtp(*this / ("whole/" + frames[1].file));
-  EXPECT_GT(lines.x.size(), 1000u);  // two ends each
+  EXPECT_GT(lines.x.size(), 500u);  // two ends each
   EXPECT_EQ(io::array(lines.lines, "normal").values.size(), lines.x.size() / 2);
   for (double normal : io::array(lines.lines, "normal").values) EXPECT_GE(normal, 0.0);
 }
@@ -68,12 +68,20 @@ TEST_F(Research, a_bed_goes_to_lammps_and_comes_back) {
   const std::string from_file = " --set bed.file=one.data --set time.end=0.05 --quiet --out ";
   const Result result = run("run " + bed + from_file + "reread");
   ASSERT_EQ(result.exit, 0) << result.err;
-  // It was at rest already: it comes to rest at the same level.
+  // It was at rest already: it comes to rest at the same level, but for what the contacts had remembered of friction,
+  // which the file does not hold: the grains settle a little further.
   ASSERT_EQ(run(small_run("0.05", "packed")).exit, 0);
   const auto level = [&](const char* name) {
     return nlohmann::json::parse(content(*this / name / "packing.json"))["level_m"].get<double>();
   };
-  EXPECT_NEAR(level("reread"), level("packed"), 2e-4);  // a tenth of a grain
+  EXPECT_LE(level("reread"), level("packed"));
+  EXPECT_NEAR(level("reread"), level("packed"), 5e-4);  // a quarter of a grain
+  const std::string smooth = " --set contact.friction=0";
+  ASSERT_EQ(run("bed " + bed + smooth + " --out smooth.data").exit, 0);
+  ASSERT_EQ(run("run " + bed + smooth + " --set bed.file=smooth.data --set time.end=0.01 --quiet --out smooth").exit,
+            0);
+  ASSERT_EQ(run(small_run("0.01", "smooth_packed" + smooth)).exit, 0);
+  EXPECT_NEAR(level("smooth"), level("smooth_packed"), 2e-6);
   const Result of_run = run("bed reread --out two.data");
   ASSERT_EQ(of_run.exit, 0) << of_run.err;
   expect_contains(content(*this / "two.data"), {"500 atoms"});

@@ -43,20 +43,20 @@ TEST(work, of_finer_sand_scales_in_all_its_parts) {
 
 TEST(prediction, is_the_sum_of_work_times_speed) {
   Work w;
-  w.grains = 10, w.cells = 100, w.held_steps = 5, w.flow_steps = 20, w.grain_steps = 1000;
+  w.grains = 10, w.packed = 6, w.cells = 100, w.held_steps = 5, w.flow_steps = 20, w.grain_steps = 1000;
   w.series = 7, w.frames = 2, w.checkpoints = 3;
   Speeds s;
   s.packing = 0.5, s.held_flow = 0.01, s.flow = 0.02, s.held_exchange = 0.1, s.exchange = 0.2, s.grain = 0.001;
   s.series = 1, s.frame = 0.01, s.checkpoint = 0.02;
   s.held_step_ratio = 0.5, s.step_ratio = 2, s.cpu = 0.5, s.memory_base = 1000, s.memory = 2;
   const Prediction p = predict(w, s);
-  EXPECT_NEAR(p.packing, 5, 1e-12);
+  EXPECT_NEAR(p.packing, 3, 1e-12);
   EXPECT_NEAR(p.spin_up, 10 * (1 + 1), 1e-12);
   EXPECT_NEAR(p.flow, 10 * 2, 1e-12);
   EXPECT_NEAR(p.exchange, 10 * 2, 1e-12);
   EXPECT_NEAR(p.grains, 10, 1e-12);
   EXPECT_NEAR(p.output, 7 + 110 * (0.02 + 0.06), 1e-12);
-  EXPECT_NEAR(p.wall(), 5 + 20 + 20 + 20 + 10 + 15.8, 1e-12);
+  EXPECT_NEAR(p.wall(), 3 + 20 + 20 + 20 + 10 + 15.8, 1e-12);
   EXPECT_NEAR(p.cpu, 0.5 * p.wall(), 1e-12);
   EXPECT_NEAR(p.memory, 1000 + 220, 1e-12);
   EXPECT_NEAR(p.flow_steps, 20, 1e-12);
