@@ -39,8 +39,8 @@ Bed scattered(const Params& given);
 std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look = {});
 
 /// Brings a bed at rest to a level [m]: heaps more grains onto it where its mean level is not well above, takes away
-/// every grain whose centre is higher, and lets the rest settle anew.  The number of grains changes; contacts between those
-/// that stay remember what they did.
+/// every grain whose centre is higher, and lets the rest settle anew.  The number of grains changes; contacts between
+/// those that stay remember what they did.
 std::vector<SettleRow> level(Bed& bed, double height, const OnLook& on_look = {});
 
 /// Makes a bed at rest: lattice or scattered (start), settle and, when a thickness is given, level; the number of

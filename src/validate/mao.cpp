@@ -30,10 +30,11 @@ constexpr double plateau_of_mao = 0.91;
 const std::vector<std::string> colours = {"#1f77b4", "#d62728", "#2ca02c"};
 
 struct Experiment {
-  std::string name;          ///< of folders and files
-  std::string_view text;     ///< the case
-  std::vector<double> ends;  ///< of each seed, from 1 on [s]; 0: the case's own
-  bool scaled = false;       ///< times count as t/T
+  std::string name;                 ///< of folders and files
+  std::string_view text;            ///< the case
+  std::vector<double> ends;         ///< of each seed, from 1 on [s]; 0: the case's own
+  bool scaled = false;              ///< times count as t/T
+  std::vector<std::string> keys{};  ///< what differs from the case
 };
 
 /// What a run left: depth and bed lines in time.
@@ -174,7 +175,8 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
   run::obey_signals();
   std::vector<Scour> all;
   for (unsigned seed = 1; seed <= e.ends.size(); ++seed) {
-    std::vector<std::string> keys = {fmt::format("bed.seed={}", seed)};
+    std::vector<std::string> keys = e.keys;
+    keys.push_back(fmt::format("bed.seed={}", seed));
     if (e.ends[seed - 1] > 0) keys.push_back(fmt::format("time.end={}", e.ends[seed - 1]));
     const casefile::Case c = casefile::read_text(e.text, e.name, keys);
     const fs::path folder = fs::path(kept_scours) / fmt::format("{}-seed{}", e.name, seed);
@@ -254,6 +256,15 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
 }  // namespace
 
 Result mao(const Tell& tell) { return hold_against_mao({"mao", mao_case, {0, 12, 12}}, tell); }
+Result mao_1mm(const Tell& tell) {
+  return hold_against_mao({"mao-1mm",
+                           mao_case,
+                           {0, 0, 0},
+                           true,
+                           {"grains.diameter=1 mm", "mesh.cell_x=2.5 mm", "mesh.cell_y=0.6 mm", "bed.pieces=1",
+                            "time.grain_step=2e-5", "time.spin_up=1.5", "time.end=8"}},
+                          tell);
+}
 Result mao_paper(const Tell& tell) { return hold_against_mao({"mao-2mm", mao_paper_case, {0, 0, 0}, true}, tell); }
 
 }  // namespace livebed::validate

@@ -7,9 +7,11 @@ namespace livebed::validate {
 inline constexpr const char* kept_scours = "runs/validate/mao";
 
 /// The live-bed experiment of Mao (1986) with his own sand, seconds against seconds: depth in time, bed profiles.  Runs
-/// that are not at their end are made or resumed; stopped by a signal, they go on at the next call.  Throws Fault
-/// (stopped by a limit) then, and what a run throws.
+/// that are not at their end are made or resumed; stopped by a signal, they go on at the next call and what
+/// there is so far is told.  Throws Fault (signal) when that is nothing, and what a run throws.
 Result mao(const Tell& tell);
+/// The same with grains of 1 mm, between the sand and the paper's grains, and the sand's own physics: t/T against t/T.
+Result mao_1mm(const Tell& tell);
 /// The same with grains of 2 mm as the paper has them, preset mbs2d: t/T against t/T.
 Result mao_paper(const Tell& tell);
 

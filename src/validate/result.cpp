@@ -43,6 +43,7 @@ const std::vector<Case>& cases() {
       {"bedload", "sand on a flat bed: fall speed, heap, threshold and rate of transport, 2 mm and 0.36 mm", bedload},
       {"sheet-flow", "sheet flow of Revil-Baudard et al. (2015): speed and solid fraction over the height", sheet_flow},
       {"mao", "live-bed scour of Mao (1986), his sand of 0.36 mm, in seconds: depth in time, bed profiles; hours", mao},
+      {"mao-1mm", "the same with grains of 1 mm on a deep bed, time scaled", mao_1mm},
       {"mao-2mm", "the same with the paper's grains of 2 mm, time scaled: Figures 11 and 12", mao_paper},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},
       {"oner-depth", "what sets its Strouhal number: depth, approach profile, scheme, grid", oner_depth},
