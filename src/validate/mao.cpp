@@ -63,7 +63,12 @@ void finish(const casefile::Case& c, const fs::path& folder, const Tell& tell) {
   base::Exit exit = base::Exit::ok;
   if (run::list_checkpoints(folder).empty()) {
     fs::remove_all(folder);  // stopped while its grains settled
-    exit = run::execute(c, folder, options);
+    try {
+      exit = run::execute(c, folder, options);
+    } catch (const base::Fault& fault) {
+      if (fault.code() != base::Exit::signal) throw;
+      exit = fault.code();
+    }
   } else {
     const fs::path summary = folder / "summary.json";
     const bool ended =
@@ -182,9 +187,10 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
     const fs::path folder = fs::path(kept_scours) / fmt::format("{}-seed{}", e.name, seed);
     if (run::stop_signal() == 0) finish(c, folder, tell);
     if (!fs::exists(folder / "summary.json")) continue;
-    all.push_back(read(c, folder, seed));
+    Scour s = read(c, folder, seed);
+    if (!s.t.empty() && !s.t_lines.empty()) all.push_back(std::move(s));  // else stopped before the grains were let go
   }
-  if (all.empty()) base::fail(base::Exit::signal, "stopped before any seed of {} had a checkpoint", e.name);
+  if (all.empty()) base::fail(base::Exit::signal, "stopped before the grains of any seed of {} were let go", e.name);
   const io::Table measured = io::parse_table(report::mao_depth, "mao1986_livebed_depth.csv");
   const io::Table two_phase = io::parse_table(sedfoam_depth, "sedfoam_kepsilon_livebed_depth.csv");
   const double scale = all.front().resolved.time_scale / report::mao_time_scale;
