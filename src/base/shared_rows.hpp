@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/field.hpp"
+#include "base/loops.hpp"
 
 namespace livebed::base {
 
@@ -12,7 +13,10 @@ class SharedRows {
 public:
   SharedRows() = default;
   /// The rows of f, ghosts included.
-  explicit SharedRows(const Field& f) : SharedRows(f.ny()) {
+  explicit SharedRows(const Field& f) { keep(f); }
+  /// The same in the memory that is there, if it is enough.
+  void keep(const Field& f) {
+    index_.assign(static_cast<std::size_t>(f.ny()) + 2 * ghosts, 0);
     std::vector<int> kept;
     const int ga = -ghosts, gb = f.nx() + ghosts;
     for (int j = -ghosts; j < f.ny() + ghosts; ++j) {
@@ -26,11 +30,14 @@ public:
       else
         mine = last + 1, kept.push_back(j);
     }
-    rows_ = Field(f.nx(), static_cast<int>(kept.size()), ghosts);
-    for (std::size_t k = 0; k < kept.size(); ++k)
-      std::copy(f.row(kept[k]) + ga, f.row(kept[k]) + gb, rows_.row(static_cast<int>(k)) + ga);
-    for (int row : kept)
-      one_.push_back(std::all_of(f.row(row) + ga, f.row(row) + gb, [](double v) { return v == 1.0; }));
+    if (rows_.nx() != f.nx() || rows_.ny() < static_cast<int>(kept.size()))
+      rows_ = Field(f.nx(), static_cast<int>(kept.size()), ghosts);
+    one_.assign(kept.size(), 0);
+    for_each_item(0, static_cast<int>(kept.size()), [&](int k) {
+      const double *first = f.row(kept[k]) + ga, *last = f.row(kept[k]) + gb;
+      std::copy(first, last, rows_.row(k) + ga);
+      one_[k] = std::all_of(first, last, [](double v) { return v == 1.0; });
+    });
   }
   /// `value` all over, but with rows of their own, to be written at any time, where own[j] is set.
   SharedRows(int nx, const std::vector<char>& own, double value) : SharedRows(static_cast<int>(own.size())) {

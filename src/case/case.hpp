@@ -34,6 +34,15 @@ struct OutputParams {
   double contacts_every = 0;                      ///< [s], files of contact forces for ParaView; 0: none
 };
 
+/// The sand at the ends of the box.  periodic: what leaves through one end comes in at the other (the paper);
+/// equilibrium: what leaves is gone, and what an endless approach would bring comes in; none: nothing does.
+enum class Supply { periodic, equilibrium, none };
+/// The stretch whose transport comes in: from and to, of the way from the inlet to the pipe or, without one, of the
+/// box.
+inline constexpr double feed_from = 0.25, feed_to = 0.5;
+/// It begins at least so far behind the inlet [d].
+inline constexpr double feed_behind_inlet = 16;
+
 /// One resolved case: everything a run needs, in SI units, derived numbers filled in (check.hpp).
 struct Case {
   std::string title;
@@ -48,8 +57,9 @@ struct Case {
   double bed_thickness = 0.05;       ///< [m], level of the bed: nominal until the packing has shown the true one
   std::string walls;                 ///< for the grains, as written (walls.hpp)
   std::string bed_file;              ///< LAMMPS data file the grains start from; empty: they are packed
-  double cut = 0;                    ///< [m], level to which a bed of a given count was cut; 0: not cut
-  double measured_level = 0;         ///< [m], that true one; 0 before the packing
+  Supply supply = Supply::periodic;
+  double cut = 0;             ///< [m], level to which a bed of a given count was cut; 0: not cut
+  double measured_level = 0;  ///< [m], that true one; 0 before the packing
 
   /// Where one key can stand for another (current.theta or current.mean_speed, ...): the ones the case was given by.
   std::vector<std::string> given;

@@ -221,6 +221,19 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
   keys({"grains.diameter", "mesh.length"})
       .fault_if(d > mesh.length / 10, "grains.diameter = {} m leaves fewer than 10 grains in mesh.length = {} m", d,
                 mesh.length);
+  keys({"bed.supply", "bed.walls", "bed.side_walls"})
+      .fault_if(c.supply != Supply::periodic && (c.grains.side_walls || !c.grains.walls.empty()),
+                "bed.supply other than \"periodic\" needs ends without walls: remove bed.walls and bed.side_walls");
+  keys({"bed.supply", "current.profile"})
+      .fault_if(c.supply != Supply::periodic && c.flow.current.profile == flow::Profile::recycled,
+                "current.profile = \"recycled\" is a channel without ends: bed.supply must be \"periodic\"");
+  const double feed_begins = feed_from * (c.flow.pipe.present ? c.flow.pipe.x : mesh.length);
+  keys({"bed.supply", "pipe.x", "mesh.length", "grains.diameter"})
+      .fault_if(
+          c.supply == Supply::equilibrium && feed_begins < feed_behind_inlet * d,
+          "bed.supply = \"equilibrium\" takes its measure {:.3g} grains behind the inlet, a quarter of the way to "
+          "the pipe; at least {} are needed: move the pipe or the outlet downstream",
+          feed_begins / d, feed_behind_inlet);
   const int pieces = c.grains.pieces;
   keys({"bed.pieces", "grains.diameter", "mesh.length"})
       .fault_if(pieces > 1 && mesh.length / pieces < least_piece * d,

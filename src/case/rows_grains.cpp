@@ -31,6 +31,12 @@ void add_bed(std::vector<Row>& s) {
       text("bed.walls", at(&Case::walls))
           .says("further walls for the grains: points \"x y\" in m with commas, lines with semicolons between, as in "
                 "\"0.1 0.3, 0.1 0; 0.2 0.1, 0.3 0.2\"; the water does not see them"));
+  s.push_back(
+      word<Supply>("bed.supply", at(&Case::supply),
+                   {{"periodic", Supply::periodic}, {"equilibrium", Supply::equilibrium}, {"none", Supply::none}})
+          .says("sand at the ends: what leaves through one end comes in at the other; or it is gone, and there "
+                "comes in what moves over the bed well before the pipe, or nothing")
+          .from("Sec. 4.3: periodic"));
   s.push_back(integer("bed.seed", grains(&G::seed))
                   .within(0, 4294967295.0)
                   .says("of the diameters and of the lattice's small shifts"));

@@ -47,6 +47,8 @@ void level(double* values, int first, int last) {
   std::fill(values + first, values + last, mean);
 }
 
+bool is_still(const grains::State& g, int k) { return !g.fluid.still.empty() && g.fluid.still[k] != 0; }
+
 /// Calls body(k) for every grain of a list, on all threads.
 template <class Body>
 void over_grains(const std::vector<int>& which, Body&& body) {
@@ -84,8 +86,7 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
       density_(flow.params().density),
       viscosity_(materials.viscosity),
       owed_u_(nx_, ny_),
-      owed_v_(nx_, ny_),
-      still_(materials.grains, 0) {
+      owed_v_(nx_, ny_) {
   const flow::Mesh& m = flow.mesh();
   const flow::Staggering centres = flow::Staggering::centres(m);
   at_u_ = Transfer(flow::Staggering::west_faces(m), m.aperture_x, 1, nx_ - 1, reach_);
@@ -108,7 +109,7 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
 void Coupler::locate(const grains::State& g) {
   moving_.clear();
   for (int k = 0; k < g.count(); ++k)
-    if (still_[g.id[k]] == 0) moving_.push_back(k);
+    if (!is_still(g, k)) moving_.push_back(k);
   for (Transfer* at : {&at_u_, &at_v_, &at_c_}) at->locate(g.x, g.y, moving_);
   located_ = true;
 }
@@ -125,30 +126,43 @@ void Coupler::add_still(const std::vector<int>& ids, double sign) {
   });
 }
 
-void Coupler::wake(const grains::State& g) {
+void Coupler::wake(grains::State& g) {
+  woken_.clear();
   if (g.sleep.asleep.empty()) return;
-  std::vector<int> woken;
-  for (int k = 0; k < g.count(); ++k)
-    if (still_[g.id[k]] != 0 && g.sleep.asleep[k] == 0) woken.push_back(g.id[k]), still_[g.id[k]] = 0;
-  add_still(woken, -1);
+  std::vector<int> ids;
+  for (int k = 0; k < g.count(); ++k) {
+    if (!is_still(g, k) || g.sleep.asleep[k] != 0) continue;
+    g.fluid.still[k] = 0;
+    woken_.push_back(k), ids.push_back(g.id[k]);
+  }
+  add_still(ids, -1);
 }
 
-void Coupler::forget_still() {
-  std::fill(still_.begin(), still_.end(), 0);
+void Coupler::let_leave(grains::State& g, const std::vector<int>& leaving) {
+  std::vector<int> ids;
+  for (const int k : leaving)
+    if (is_still(g, k)) ids.push_back(g.id[k]);
+  add_still(ids, -1);
+  located_ = voids_filled_ = false;
+}
+
+void Coupler::forget_still(grains::State& g) {
+  g.fluid.still.assign(g.x.size(), 0);
   for (Field* sum : {&still_solid_, &still_beta_u_, &still_beta_v_, &still_damping_}) sum->fill(0.0);
   located_ = voids_filled_ = false;
 }
 
 template <class Rests>
-void Coupler::settle(const grains::State& g, Rests&& rests) {
+void Coupler::settle(grains::State& g, Rests&& rests) {
   const std::int64_t place = ++steps_ % steps_a_round;
-  if (place == 0) forget_still();
+  if (place == 0) forget_still(g);
   if (place != 1) return;
+  g.fluid.still.resize(g.x.size());
   std::vector<int> still;
   for (int k = 0; k < g.count(); ++k) {
     if (!rests(k)) continue;
     const int id = g.id[k];
-    still_[id] = 1, still.push_back(id);
+    g.fluid.still[k] = 1, still.push_back(id);
     still_x_[id] = g.x[k], still_y_[id] = g.y[k];
     still_beta_[id] = g.fluid.beta[k], still_volume_[id] = base::sphere_volume(g.diameter[k]);
   }
@@ -156,18 +170,18 @@ void Coupler::settle(const grains::State& g, Rests&& rests) {
   voids_filled_ = false;
 }
 
-void Coupler::hold(const grains::State& g) {
+void Coupler::hold(grains::State& g) {
   if (params_.mode == Mode::two_way) settle(g, [](int) { return true; });
 }
 
-void Coupler::let_go() {
-  forget_still();
+void Coupler::let_go(grains::State& g) {
+  forget_still(g);
   steps_ = 0;
 }
 
 int Coupler::rows_with_grains(const grains::State& g) const {
   if (g.count() == 0) return 0;
-  const double top = *std::max_element(g.y.begin(), g.y.begin() + g.count()) + reach_;
+  const double top = reach_ + base::vector_largest(0, g.count(), 0.0, [&](int k) { return g.y[k]; });
   // A volume of v reaches half a row further down than its row.
   return std::min(ny_, static_cast<int>(std::lower_bound(y_.begin(), y_.end(), top) - y_.begin()) + 2);
 }
@@ -180,8 +194,14 @@ double Coupler::response_time(const grains::State& g, int k) const {
 double Coupler::step_limit(const grains::State& g) const {
   double limit = std::numeric_limits<double>::infinity();
   if (params_.voidage == Voidage::off || params_.mode != Mode::two_way) return limit;
-  for (int k = 0; k < g.count(); ++k)
-    if (still_[g.id[k]] == 0) limit = std::min(limit, response_time(g, k));
+  const auto may_move = [&](int k) {
+    if (!is_still(g, k)) limit = std::min(limit, response_time(g, k));
+  };
+  if (located_) {
+    std::for_each(moving_.begin(), moving_.end(), may_move);
+  } else {
+    for (int k = 0; k < g.count(); ++k) may_move(k);
+  }
   return step_over_response * limit;
 }
 
@@ -200,7 +220,7 @@ void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double inte
   at_c_.gather(voids_, voidage_);
   if (params_.voidage == Voidage::on && params_.mode == Mode::two_way)
     flow.set_voidage(voids_, flow.state.voidage.nx() > 0 ? interval : 0.0,
-                     uniform_ ? 0.0 : reach_ + materials_.grain_diameter);
+                     uniform_ ? 0.0 : std::max(materials_.ends, reach_ + materials_.grain_diameter));
 }
 
 void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt) {
@@ -246,6 +266,7 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   if (params_.mode == Mode::none) return;
   flow::State& s = flow.state;
   flow::Load& load = s.load;
+  const bool may_have_left = !located_;
   if (!located_) locate(g);
   if (!voids_filled_) fill_voids(g, flow, held ? 0.0 : dt);  // held, they leave no room and take none
   const int before = load.top;
@@ -272,8 +293,9 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
       drag_);
   if (params_.mode == Mode::one_way) return;
 
-  // What is owed to rows that the grains have left is handed over in one more step.
-  load.top = std::max(top_, before - 1);
+  // What is owed to rows that the grains have left is handed over in one more step; from the topmost row, where hardly
+  // anything can be, only grains that leave the bed are gone so fast.
+  load.top = std::max(top_, may_have_left ? before : before - 1);
   for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v, &load.damping, &load.room})
     for (int j = 0; j < std::max(before, load.top); ++j) std::fill(f->row(j), f->row(j) + nx_ + 1, 0.0);
   if (held || params_.exchange == Exchange::implicit) {
@@ -407,19 +429,22 @@ void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) 
 }
 
 void Coupler::push_grains(const flow::Solver& flow, grains::State& g, double dt) {
-  std::fill(g.impulse_x.begin(), g.impulse_x.end(), 0.0);
-  std::fill(g.impulse_y.begin(), g.impulse_y.end(), 0.0);
+  constexpr int block = 4096;
+  for_each_item(0, (g.count() + block - 1) / block, [&](int b) {
+    const int end = std::min(g.count(), (b + 1) * block);
+    std::fill(g.impulse_x.begin() + b * block, g.impulse_x.begin() + end, 0.0);
+    std::fill(g.impulse_y.begin() + b * block, g.impulse_y.begin() + end, 0.0);
+  });
   if (params_.mode == Mode::none) return;
   feel_water(flow, g, dt);
 }
 
-void Coupler::collect(const grains::State& g, const flow::Solver& flow, double dt) {
+void Coupler::collect(grains::State& g, const flow::Solver& flow, double dt) {
   located_ = voids_filled_ = false;  // the grains have moved
   if (params_.mode != Mode::two_way) return;
   const flow::State& s = flow.state;
   ledger_.to_grains.x += given_to_still(still_beta_u_, s.u, dt);
   ledger_.to_grains.y += given_to_still(still_beta_v_, s.v, dt);
-  const std::vector<std::int32_t> was_still = still_;
   wake(g);
   locate(g);
   const double relative = params_.added_mass == AddedMass::relative ? materials_.added_mass * density_ : 0.0;
@@ -442,7 +467,8 @@ void Coupler::collect(const grains::State& g, const flow::Solver& flow, double d
     const auto anticipated = [&](int k) { return implicit ? dt * g.fluid.beta[k] * (felt[k] - before[g.id[k]]) : 0.0; };
     owed.fill(0.0);
     to.scatter(std::array{&owed}, [&](int k) { return std::array{anticipated(k) - received(k)}; });
-    for (const int k : moving_) to_grains += received(k) - (was_still[g.id[k]] != 0 ? anticipated(k) : 0.0);
+    for (const int k : moving_) to_grains += received(k);
+    for (const int k : woken_) to_grains -= anticipated(k);  // is in given_to_still
     carried = total(owed);
   };
   one(at_u_, flow.at_u(), g.impulse_x, g.u, g.fluid.u, given_x_, before_u_, s.u, s.load.beta_u, s.load.force_u,

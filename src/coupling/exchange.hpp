@@ -27,7 +27,7 @@ inline constexpr double packed_solid = 0.55, packed_share = 0.9;
 /// is whatever stops the little that flows there.
 inline constexpr double sliver = 0.05;
 /// The water around grains that are still is looked at every so many steps of the flow.
-inline constexpr int steps_a_round = 32;
+inline constexpr int steps_a_round = 64;
 inline constexpr double solid_least = 1e-3;  ///< fewer grains leave the eddies alone [-]
 inline constexpr double room_least = 0.02;   ///< of the packed bed over d; keeps its dissipation finite
 
@@ -48,6 +48,7 @@ struct Materials {
   double viscosity = 0;       ///< nu of the water, as drag and lift see it [m2/s]
   int grains = 0;             ///< number of them
   std::uint64_t seed = 1;     ///< of the dispersion
+  double ends = 0;            ///< grains come and go so near to the ends of the box [m]
 };
 
 /// The forces between flow and grains, both ways.  A coupled step of dt is
@@ -71,13 +72,16 @@ public:
   /// Step 1.  held: the grains stand still whatever happens (spin-up of the flow on the fixed bed).
   void load_flow(grains::State& g, flow::Solver& flow, double dt, bool held);
   /// After each step with the grains held: all of them are still.
-  void hold(const grains::State& g);
+  void hold(grains::State& g);
   /// Ends that.
-  void let_go();
+  void let_go(grains::State& g);
   /// Step 3.  dt: the step of the flow [s].
   void push_grains(const flow::Solver& flow, grains::State& g, double dt);
   /// Step 4.
-  void collect(const grains::State& g, const flow::Solver& flow, double dt);
+  void collect(grains::State& g, const flow::Solver& flow, double dt);
+
+  /// Before grains at these places of the storage leave the bed and others enter: forgets where all were.
+  void let_leave(grains::State& g, const std::vector<int>& leaving);
 
   /// Longest step that the exchange bears [s], from the drag of the last one on grains that may move.
   double step_limit(const grains::State& g) const;
@@ -91,7 +95,7 @@ public:
   template <class Self, class Visit>
   static void each_part(Self& self, Visit&& visit) {
     visit("owed_u", self.owed_u_), visit("owed_v", self.owed_v_);
-    visit("still_steps", self.steps_), visit("still", self.still_);
+    visit("still_steps", self.steps_);
     visit("still_x", self.still_x_), visit("still_y", self.still_y_);
     visit("still_beta", self.still_beta_), visit("still_volume", self.still_volume_);
     visit("still_damps", self.still_damps_);
@@ -106,11 +110,11 @@ private:
   /// Weights of the grains that are not still.
   void locate(const grains::State& g);
   /// Takes grains that have woken out of the sum of those that are still.
-  void wake(const grains::State& g);
+  void wake(grains::State& g);
   /// From the second step of a round on the grains for which rests(k) holds are still; before the first nobody is.
   template <class Rests>
-  void settle(const grains::State& g, Rests&& rests);
-  void forget_still();
+  void settle(grains::State& g, Rests&& rests);
+  void forget_still(grains::State& g);
   /// Adds what the grains of a list do to the cells to the sums of those that are still, or takes it away again.
   void add_still(const std::vector<int>& ids, double sign);
   /// Rows of the grid, from the floor, that the kernel of any grain touches.
@@ -156,12 +160,12 @@ private:
   // water's own equation [N], velocity when the step began [m/s].
   grains::Array given_x_, given_y_, before_u_, before_v_;
 
-  // Grains that are still, by id: where they are [m] and what they do to the cells; and the sums of that.
-  std::int64_t steps_ = 0;           ///< with grains free to move
-  std::vector<std::int32_t> still_;  ///< 1 = still
+  // Grains that are still (FluidForce::still), by id: where they are [m] and what they do to the cells; and the sums.
+  std::int64_t steps_ = 0;  ///< with grains free to move
   grains::Array still_x_, still_y_, still_beta_, still_volume_, still_damps_;
   base::Field still_solid_, still_beta_u_, still_beta_v_, still_damping_;
   std::vector<int> moving_;  ///< all others, in the order of the storage
+  std::vector<int> woken_;   ///< those of them that were still when the step began
 
   base::Field volume_c_;  ///< of the cells, water and grains, slab included [m3]
   base::Field voids_, slope_u_, slope_v_, rate_u_, rate_v_, curl_;

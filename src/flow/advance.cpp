@@ -39,20 +39,23 @@ Solver::Solver(const Params& params, const Mesh& mesh, const Boundary& boundary)
 
 void Solver::set_voidage(const Field& voidage, double interval, double margin) {
   state.voidage = voidage;
-  const Mesh before = std::exchange(water_, fill_with_voids(mesh_, voidage, boundary_.inlet));
-  at_u_ = Staggering::west_faces(water_);
-  at_v_ = Staggering::south_faces(water_);
-  at_c_ = Staggering::centres(water_);
-  work_.face_x = base::SharedRows(water_.aperture_x);
-  work_.face_y = base::SharedRows(water_.aperture_y);
+  volume_before_ = water_.volume;
+  fill_with_voids(mesh_, voidage, boundary_.inlet, water_);
+  for (Staggering* at : {&at_u_, &at_v_, &at_c_}) at->open_to(water_, openings_);
+  work_.face_x.keep(water_.aperture_x);
+  work_.face_y.keep(water_.aperture_y);
   coefficients_set_ = false;
-  work_.storage = interval > 0 ? Field(mesh_.nx, mesh_.ny) : Field();
-  if (interval <= 0) return;
+  if (interval <= 0) {
+    work_.storage = Field();
+    return;
+  }
+  if (work_.storage.nx() == 0) work_.storage = Field(mesh_.nx, mesh_.ny);
   const double from = boundary_.inlet ? margin : 0.0, to = mesh_.length() - (boundary_.outlet ? margin : 0.0);
-  for (int j = 0; j < mesh_.ny; ++j)
+  base::for_each_item(0, mesh_.ny, [&](int j) {
     for (int i = 0; i < mesh_.nx; ++i)
       if (mesh_.x[i] >= from && mesh_.x[i + 1] <= to)
-        work_.storage(i, j) = (water_.volume(i, j) - before.volume(i, j)) * mesh_.dx(i) * mesh_.dy(j) / interval;
+        work_.storage(i, j) = (water_.volume(i, j) - volume_before_(i, j)) * mesh_.dx(i) * mesh_.dy(j) / interval;
+  });
 }
 
 void Solver::set_inlet(const Column& profiles) {

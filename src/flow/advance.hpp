@@ -96,6 +96,8 @@ private:
   Params params_;
   Mesh mesh_;   ///< with the pipe cut out
   Mesh water_;  ///< with the void fraction, too
+  OpeningScratch openings_;
+  base::Field volume_before_;  ///< of the water before the last change of the void fraction
   Boundary boundary_;
   Staggering at_u_, at_v_, at_c_;
   Workspace work_;

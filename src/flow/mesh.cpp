@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/fault.hpp"
+#include "base/loops.hpp"
 #include "flow/pipe.hpp"
 
 namespace livebed::flow {
@@ -85,22 +86,38 @@ Mesh make_mesh(const std::vector<double>& x, const std::vector<double>& y, const
   return m;
 }
 
-Mesh fill_with_voids(const Mesh& mesh, const base::Field& voidage, bool inlet) {
-  Mesh filled = mesh;
-  for (int j = 0; j <= mesh.ny; ++j)
+namespace {
+
+[[noreturn]] void refuse_voidage(const base::Field& voidage, int j) {
+  int i = 0;
+  while (voidage(i, j) > 0 && voidage(i, j) <= 1) ++i;
+  base::fail(base::Exit::invalid_case,
+             "void fraction {} in cell ({},{}): above 0 and at most 1 is allowed; fewer or smaller grains there",
+             voidage(i, j), i, j);
+}
+
+}  // namespace
+
+void fill_with_voids(const Mesh& mesh, const base::Field& voidage, bool inlet, Mesh& filled) {
+  for (int j = 0; j < mesh.ny; ++j)
+    if (!std::all_of(voidage.row(j), voidage.row(j) + mesh.nx, [](double e) { return e > 0 && e <= 1; }))
+      refuse_voidage(voidage, j);
+  base::for_each_item(0, mesh.ny + 1, [&](int j) {
     for (int i = 0; i <= mesh.nx; ++i) {
       // Outer faces are as open as the cells inside them.
       const int east = std::min(i, mesh.nx - 1), north = std::min(j, mesh.ny - 1);
       const int west = std::max(i - 1, 0), south = std::max(j - 1, 0);
       const double here = voidage(east, north);
-      if (!(here > 0 && here <= 1))
-        base::fail(base::Exit::invalid_case,
-                   "void fraction {} in cell ({},{}): above 0 and at most 1 is allowed; fewer or smaller grains there",
-                   here, east, north);
-      filled.aperture_x(i, j) *= i == 0 && inlet ? 1.0 : 0.5 * (voidage(west, north) + here);
-      filled.aperture_y(i, j) *= 0.5 * (voidage(east, south) + here);
-      filled.volume(i, j) *= here;
+      filled.aperture_x(i, j) = mesh.aperture_x(i, j) * (i == 0 && inlet ? 1.0 : 0.5 * (voidage(west, north) + here));
+      filled.aperture_y(i, j) = mesh.aperture_y(i, j) * (0.5 * (voidage(east, south) + here));
+      filled.volume(i, j) = mesh.volume(i, j) * here;
     }
+  });
+}
+
+Mesh fill_with_voids(const Mesh& mesh, const base::Field& voidage, bool inlet) {
+  Mesh filled = mesh;
+  fill_with_voids(mesh, voidage, inlet, filled);
   return filled;
 }
 

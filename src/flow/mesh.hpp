@@ -51,7 +51,9 @@ Mesh make_mesh(const std::vector<double>& x, const std::vector<double>& y, const
 /// voidage <= 1, mean of both cells on faces.  All operators on this mesh are those of the volume-averaged equations,
 /// inlet: what comes in through the west must not change with every grain that passes it: its faces stay as they are.
 ///   d(voidage)/dt + div(voidage u) = 0,   voidage du/dt + ... = - voidage grad p/rho + div(voidage stress) + ...
-/// Throws Fault (invalid case) for a value out of range.
+/// filled: a copy of the mesh, of which the openings are replaced.  Throws Fault (invalid case) for a value out of
+/// range.
+void fill_with_voids(const Mesh& mesh, const base::Field& voidage, bool inlet, Mesh& filled);
 Mesh fill_with_voids(const Mesh& mesh, const base::Field& voidage, bool inlet = false);
 
 }  // namespace livebed::flow

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/loops.hpp"
 #include "flow/constants.hpp"
 
 namespace livebed::flow {
@@ -99,41 +100,49 @@ Staggering make(const Mesh& m, int shift_x, int shift_y) {
   s.per_height = inverse(s.height), s.per_hy = inverse(s.hy);
   share_faces(m.dx_, s.width, shift_x, s.share_x_before, s.share_x);
   share_faces(m.dy_, s.height, shift_y, s.share_y_before, s.share_y);
-  base::Field volume(m.nx, m.ny, 2, 1.0), open = volume, open_x = volume, open_y = volume, inertia = volume;
-  for (int j = 0; j <= m.ny; ++j)
-    for (int i = 0; i <= m.nx; ++i) {
-      const int a = i - shift_x, b = j - shift_y;
-      open_x(i, j) = 0.5 * (m.aperture_x(a, b) + m.aperture_x(i, j));
-      open_y(i, j) = 0.5 * (m.aperture_y(a, b) + m.aperture_y(i, j));
-      open(i, j) = shift_x ? m.aperture_x(i, j) : shift_y ? m.aperture_y(i, j) : m.volume(i, j);
-      const double before = m.volume(a, b), here = m.volume(i, j);
-      // Equal openings give their own value to the last bit, so that rows without pipe are all alike.
-      volume(i, j) =
-          before == here ? here : 0.5 * (before * m.dx(a) * m.dy(b) + here * m.dx(i) * m.dy(j)) / s.whole(i, j);
-    }
-  for (int j = 0; j < m.ny; ++j)
-    for (int i = 0; i < m.nx; ++i) {
-      const double widest =
-          std::max(std::max(open_x(i, j), open_x(i + 1, j)), std::max(open_y(i, j), open_y(i, j + 1)));
-      inertia(i, j) = std::max({volume(i, j), open(i, j), 0.5 * widest});
-      if (inertia(i, j) <= 0) inertia(i, j) = 1;  // solid: nothing moves, nothing divides by zero
-    }
-  for (int j = 0; j <= m.ny; ++j)
-    for (int i = 0; i <= m.nx; ++i) {
-      if (open(i, j) <= 0 || open(i - 1, j) <= 0) open_x(i, j) = 0;
-      if (open(i, j) <= 0 || open(i, j - 1) <= 0) open_y(i, j) = 0;
-    }
-  if (m.has_pipe() && shift_x) draw_closer(m, true, open_y);
-  if (m.has_pipe() && shift_y) draw_closer(m, false, open_x);
-  base::Field per_inertia = inertia;
-  for (double& value : per_inertia.storage()) value = 1.0 / value;
-  s.open_volume = base::SharedRows(volume), s.open = base::SharedRows(open);
-  s.open_x = base::SharedRows(open_x), s.open_y = base::SharedRows(open_y);
-  s.inertia_ = base::SharedRows(inertia), s.per_inertia = base::SharedRows(per_inertia);
+  OpeningScratch scratch;
+  s.open_to(m, scratch);
   return s;
 }
 
 }  // namespace
+
+void Staggering::open_to(const Mesh& m, OpeningScratch& w) {
+  if (w.volume.nx() != m.nx || w.volume.ny() != m.ny)
+    w.volume = w.open = w.open_x = w.open_y = w.inertia = w.per_inertia = base::Field(m.nx, m.ny, 2, 1.0);
+  base::for_each_item(0, m.ny + 1, [&](int j) {
+    for (int i = 0; i <= m.nx; ++i) {
+      const int a = i - shift_x, b = j - shift_y;
+      w.open_x(i, j) = 0.5 * (m.aperture_x(a, b) + m.aperture_x(i, j));
+      w.open_y(i, j) = 0.5 * (m.aperture_y(a, b) + m.aperture_y(i, j));
+      w.open(i, j) = shift_x ? m.aperture_x(i, j) : shift_y ? m.aperture_y(i, j) : m.volume(i, j);
+      const double before = m.volume(a, b), here = m.volume(i, j);
+      // Equal openings give their own value to the last bit, so that rows without pipe are all alike.
+      w.volume(i, j) =
+          before == here ? here : 0.5 * (before * m.dx(a) * m.dy(b) + here * m.dx(i) * m.dy(j)) / whole(i, j);
+    }
+  });
+  base::for_each_item(0, m.ny, [&](int j) {
+    for (int i = 0; i < m.nx; ++i) {
+      const double widest =
+          std::max(std::max(w.open_x(i, j), w.open_x(i + 1, j)), std::max(w.open_y(i, j), w.open_y(i, j + 1)));
+      w.inertia(i, j) = std::max({w.volume(i, j), w.open(i, j), 0.5 * widest});
+      if (w.inertia(i, j) <= 0) w.inertia(i, j) = 1;  // solid: nothing moves, nothing divides by zero
+      w.per_inertia(i, j) = 1.0 / w.inertia(i, j);
+    }
+  });
+  base::for_each_item(0, m.ny + 1, [&](int j) {
+    for (int i = 0; i <= m.nx; ++i) {
+      if (w.open(i, j) <= 0 || w.open(i - 1, j) <= 0) w.open_x(i, j) = 0;
+      if (w.open(i, j) <= 0 || w.open(i, j - 1) <= 0) w.open_y(i, j) = 0;
+    }
+  });
+  if (m.has_pipe() && shift_x) draw_closer(m, true, w.open_y);
+  if (m.has_pipe() && shift_y) draw_closer(m, false, w.open_x);
+  open_volume.keep(w.volume), open.keep(w.open);
+  open_x.keep(w.open_x), open_y.keep(w.open_y);
+  inertia_.keep(w.inertia), per_inertia.keep(w.per_inertia);
+}
 
 Staggering Staggering::centres(const Mesh& m) { return make(m, 0, 0); }
 Staggering Staggering::west_faces(const Mesh& m) { return make(m, 1, 0); }

@@ -28,6 +28,11 @@ struct HandedOn {
   double share = 0;            ///< of the neighbour, by the open area between the two
 };
 
+/// Room for the openings of a grid's volumes while they are worked out.
+struct OpeningScratch {
+  base::Field volume, open, open_x, open_y, inertia, per_inertia;
+};
+
 /// Where a quantity lives on the grid: at cell centres, on west faces (u) or on south faces (v), with the control
 /// volumes around it.  Whatever belongs to a face of such a volume is the mean of two cell faces, (i - shift_x, j -
 /// shift_y) and (i, j): so u, v and scalars share every kernel.  Vectors have two ghosts in front: entry i+2 belongs to
@@ -57,6 +62,9 @@ struct Staggering {
   double inertia(int i, int j) const { return inertia_(i, j) * whole(i, j); }    ///< [m2]
   double area_x(int i, int j) const { return open_x(i, j) * height[j + 2]; }     ///< [m]
   double area_y(int i, int j) const { return open_y(i, j) * width[i + 2]; }      ///< [m]
+
+  /// Takes over the openings of a mesh with the same faces.
+  void open_to(const Mesh& mesh, OpeningScratch& scratch);
 
   static Staggering centres(const Mesh& mesh);
   static Staggering west_faces(const Mesh& mesh);

@@ -14,19 +14,20 @@ using base::fail;
 namespace {
 
 void check_sizes(const Bed& bed) {
-  const std::size_t n = static_cast<std::size_t>(bed.params.count);
   const State& s = bed.state;
+  const std::size_t n = static_cast<std::size_t>(bed.params.count - bed.outside);
   for (const Array* a : {&s.x, &s.y, &s.u, &s.v, &s.omega, &s.diameter, &s.fluid.u, &s.fluid.v, &s.fluid.beta,
                          &s.fluid.fx, &s.fluid.fy, &s.impulse_x, &s.impulse_y}) {
     if (a->size() != n) fail(Exit::internal, "an array of the grains has {} entries for {} grains", a->size(), n);
   }
-  if (s.id.size() != n) fail(Exit::internal, "the grains have {} ids for {} grains", s.id.size(), n);
+  for (const auto* a : {&s.id, &s.laps})
+    if (a->size() != n) fail(Exit::internal, "the grains have {} ids or laps for {} grains", a->size(), n);
 }
 
 /// Only new lists reorder the grains.
 void check_ids(const Bed& bed) {
   const State& s = bed.state;
-  const std::size_t n = s.id.size();
+  const std::size_t n = static_cast<std::size_t>(bed.params.count);
   std::vector<char> seen(n, 0);
   for (const std::int32_t id : s.id) {
     if (id < 0 || static_cast<std::size_t>(id) >= n || seen[id]) {
@@ -39,7 +40,7 @@ void check_ids(const Bed& bed) {
 /// Sorts, lists, and copies the grains into the force loop's records; collects what the old records hold first.
 void renew(Bed& bed, const Sweep& constants) {
   bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
-  count_impulses(bed);
+  count_impulses(bed, true);
   check_ids(bed);
   try {
     rebuild(bed.state, bed.contacts, bed.scratch, constants.reach, bed.pipe, constants.walls);
@@ -63,6 +64,7 @@ Bed make_bed(const Params& complete) {
     a->assign(n, 0.0);
   }
   s.diameter.assign(n, complete.diameter);
+  s.laps.assign(n, 0);
   s.id.resize(n);
   std::iota(s.id.begin(), s.id.end(), 0);
   return bed;
@@ -75,7 +77,8 @@ void check_count(const Bed& bed) {
 
 void advance(Bed& bed, int steps) {
   check_sizes(bed);
-  const Sweep constants = make_sweep(bed.params, bed.pipe);
+  bed.records.call_began = bed.steps;
+  const Sweep constants = make_sweep(bed.params, bed.pipe, bed.state.count());
   const int between_looks = steps_between_looks(bed.params);
   prepare_sleep(bed);
   if (!lists_hold(bed.state, bed.contacts, constants.reach, bed.pipe)) {
@@ -97,7 +100,7 @@ void advance(Bed& bed, int steps) {
     }
     if (bed.params.sleep && bed.steps % between_looks == 0) look(bed, constants);
   }
-  count_impulses(bed);
+  count_impulses(bed, false);
   read_records(constants, bed.steps, bed.records, bed.state);
   bed.pipe_impulse = bed.pipe_impulse + collect_pipe_impulse(bed.records);
 }

@@ -17,6 +17,7 @@ struct Bed {
   Contacts contacts;
   base::Vec2 pipe_impulse;  ///< what the grains gave the pipe since the last reset [N s]
   std::int64_t steps = 0;   ///< done so far
+  int outside = 0;          ///< grains of params.count that are not in the bed now (ends.hpp)
 
   // Filled anew by every call of advance; no part of a checkpoint.
   Records records;
@@ -33,20 +34,20 @@ Bed make_bed(const Params& complete);
 /// grain is missing or, noticed when all lists are made anew, doubled.
 void advance(Bed& bed, int steps);
 
-/// Throws Fault (internal) unless every array holds params.count grains and each id from 0 to count - 1 occurs once.
+/// Throws Fault (internal) unless every array holds all grains and no id from 0 to params.count - 1 occurs twice.
 void check_count(const Bed& bed);
 
 /// Calls visit(name, array) for every array a checkpoint must hold (doubles and integers), State and Contacts alike, in
-/// a fixed order.  With these, Contacts::pipe_built, ::rebuilds and ::refreshed, pipe_impulse and steps, a bed goes on
-/// with the same bits.
+/// a fixed order.  With these, Contacts::pipe_built, ::rebuilds and ::refreshed, pipe_impulse, steps and outside, a bed
+/// goes on with the same bits.
 template <class BedLike, class Visit>
 void each_array(BedLike& bed, Visit&& visit) {
   auto& s = bed.state;
   auto& c = bed.contacts;
   visit("x", s.x), visit("y", s.y), visit("u", s.u), visit("v", s.v), visit("omega", s.omega);
-  visit("diameter", s.diameter), visit("id", s.id);
+  visit("diameter", s.diameter), visit("id", s.id), visit("laps", s.laps);
   visit("fluid_u", s.fluid.u), visit("fluid_v", s.fluid.v), visit("fluid_beta", s.fluid.beta);
-  visit("fluid_fx", s.fluid.fx), visit("fluid_fy", s.fluid.fy);
+  visit("fluid_fx", s.fluid.fx), visit("fluid_fy", s.fluid.fy), visit("fluid_still", s.fluid.still);
   visit("impulse_x", s.impulse_x), visit("impulse_y", s.impulse_y);
   visit("list_first", c.first), visit("list_last", c.last), visit("list_first_apart", c.first_apart);
   visit("list_neighbour", c.neighbour), visit("list_spring", c.spring);

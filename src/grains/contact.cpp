@@ -8,10 +8,10 @@
 
 namespace livebed::grains {
 
-Sweep make_sweep(const Params& p, const Circle& pipe) {
+Sweep make_sweep(const Params& p, const Circle& pipe, int count) {
   // An even number of fixed grains fills every piece of the bed, so that even and odd ones alternate across the seams.
   const double pairs = p.pieces * std::max(1.0, std::round(p.length / (2 * p.diameter * p.pieces)));
-  return {.count = p.count,
+  return {.count = count,
           .law = p.law,
           .pair = pair_contact(p),
           .bottom = wall_contact(p, p.bottom),
@@ -97,6 +97,8 @@ void read_slice(const Sweep& k, std::int64_t steps, const Records& r, int slice,
     s.u[i] = r.motion[i].u;
     s.v[i] = r.motion[i].v;
     s.omega[i] = own.omega[l];
+    const double way = s.x[i] - x_filled;
+    s.laps[i] += (way < -0.5 * k.reach.length) - (way > 0.5 * k.reach.length);
     // The sum of dt (push - beta u) over the steps.
     s.impulse_x[i] += time * own.push_x[l] - own.beta[l] * nearest_image(s.x[i] - x_filled, k.reach.length);
     s.impulse_y[i] += time * own.push_y[l] - own.beta[l] * (s.y[i] - y_filled);

@@ -43,6 +43,7 @@ struct Records {
   bool border_known = false;             ///< neither slices nor neighbours have changed since it was found
   std::vector<std::uint8_t> turn;        ///< of each slice: it wakes or falls asleep
   std::vector<std::int64_t> slept_from;  ///< of each sleeping slice: step up to which its impulses are counted
+  std::int64_t call_began = 0;           ///< steps of the bed when advance was called
   std::int64_t filled_for = -1;          ///< number of the lists (Contacts::rebuilds) all slices were filled for
   std::vector<std::uint8_t> moved;       ///< of each block of slices awake: some grain left its half skin
   Array pipe_impulse_x, pipe_impulse_y;  ///< of each slice since the last collection [N s]
@@ -69,8 +70,8 @@ struct Sweep {
   std::vector<Segment> walls;  ///< further ones
 };
 
-/// Constants from complete parameters (derive).
-Sweep make_sweep(const Params& p, const Circle& pipe);
+/// Constants from complete parameters (derive) for a bed of so many grains.
+Sweep make_sweep(const Params& p, const Circle& pipe, int count);
 
 /// Who is awake, by what is known of who sleeps.
 void list_awake(Records& r);

@@ -81,7 +81,7 @@ void visit_floor(const Sweep& k, const Bed& bed, int i, std::size_t place, const
 }  // namespace
 
 void visit_contacts(const Bed& bed, const std::function<void(const TouchingPair&)>& visit) {
-  const Sweep k = make_sweep(bed.params, bed.pipe);
+  const Sweep k = make_sweep(bed.params, bed.pipe, bed.state.count());
   const State& s = bed.state;
   const Contacts& c = bed.contacts;
   if (!c.built()) return;

@@ -40,16 +40,20 @@ void check_places(const State& s, double length) {
   }
 }
 
-/// Counting sort of the grains by cell; stable, so that the result depends on the state alone.
-void rank_by_cell(const State& s, const Cells& cells, double gamma, ListScratch& w) {
-  const int n = s.count(), count = cells.count();
+bool leaves(const ListScratch& w, int i) { return !w.leaves.empty() && w.leaves[i] != 0; }
+
+/// Counting sort by cell of the n grains that stay; stable, so that the result depends on the state alone.
+void rank_by_cell(const State& s, const Cells& cells, double gamma, int n, ListScratch& w) {
+  const int count = cells.count();
   std::fill(w.cell_start.begin(), w.cell_start.end(), 0);
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < s.count(); ++i) {
+    if (leaves(w, i)) continue;
     w.cell[i] = cells.number_of(s.x[i], s.y[i]);
     ++w.cell_start[w.cell[i] + 1];
   }
   std::partial_sum(w.cell_start.begin(), w.cell_start.end(), w.cell_start.begin());
-  for (int i = 0; i < n; ++i) w.old_of_rank[w.cell_start[w.cell[i]]++] = i;
+  for (int i = 0; i < s.count(); ++i)
+    if (!leaves(w, i)) w.old_of_rank[w.cell_start[w.cell[i]]++] = i;
   for (int c = count; c > 0; --c) w.cell_start[c] = w.cell_start[c - 1];
   w.cell_start[0] = 0;
 
@@ -94,38 +98,13 @@ void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
   }
 }
 
-/// The array in the new order of the grains.
+/// The array in the new order of `count` grains.
 template <class T>
-void reorder(T& a, ListScratch& w) {
+void reorder(T& a, int count, ListScratch& w) {
+  if (a.empty()) return;
   std::copy(a.begin(), a.end(), w.values.begin());  // integers fit into doubles
-  for (std::size_t k = 0; k < a.size(); ++k) a[k] = static_cast<typename T::value_type>(w.values[w.old_of_new[k]]);
-}
-
-void reorder_all(State& s, ListScratch& w) {
-  for (Array* a : {&s.x,
-                   &s.y,
-                   &s.u,
-                   &s.v,
-                   &s.omega,
-                   &s.diameter,
-                   &s.fluid.u,
-                   &s.fluid.v,
-                   &s.fluid.beta,
-                   &s.fluid.fx,
-                   &s.fluid.fy,
-                   &s.impulse_x,
-                   &s.impulse_y,
-                   &s.sleep.x_look,
-                   &s.sleep.y_look,
-                   &s.sleep.contact_x,
-                   &s.sleep.contact_y,
-                   &s.sleep.twist,
-                   &s.sleep.fluid_x,
-                   &s.sleep.fluid_y,
-                   &s.sleep.load}) {
-    reorder(*a, w);
-  }
-  for (auto* a : {&s.id, &s.sleep.asleep, &s.sleep.calm}) reorder(*a, w);
+  for (int k = 0; k < count; ++k) a[k] = static_cast<typename T::value_type>(w.values[w.old_of_new[k]]);
+  a.resize(count);
 }
 
 /// Calls body(slot, i, j) once for every pair of a slice with a history.  Both sides keep the same one, but a sleeper's
@@ -133,9 +112,10 @@ void reorder_all(State& s, ListScratch& w) {
 template <class Body>
 void each_history(const State& s, const Contacts& c, int slice, Body&& body) {
   const auto& asleep = s.sleep.asleep;
+  const int none = static_cast<int>(c.x_built.size());  // grains may have come since the lists were made
   for (std::ptrdiff_t slot = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
        slot < static_cast<std::ptrdiff_t>(c.first_apart[slice]) * lanes; ++slot) {
-    if (c.neighbour[slot] >= s.count()) continue;
+    if (c.neighbour[slot] >= none) continue;
     if (c.spring[slot] == 0 && (c.rolling.empty() || c.rolling[slot] == 0)) continue;
     const int i = slice * lanes + static_cast<int>(slot % lanes), j = c.neighbour[slot];
     if (asleep.empty() || asleep[i] == asleep[j] ? i < j : asleep[i] == 0) body(slot, i, j);
@@ -219,6 +199,7 @@ void fill_rows(int slice, int n, int window, Contacts& c, const ListScratch& w) 
 /// by.
 void carry_springs(int old_slice, Contacts& c, const ListScratch& w) {
   const auto put = [&](int i, int j, double spring, double rolling) {
+    if (i < 0 || j < 0) return;  // one of them has left
     const std::ptrdiff_t slot = slot_of(c, i, j);
     if (slot < 0) return;
     c.spring[slot] = spring;
@@ -245,7 +226,9 @@ void carry_wall_springs(const State& s, Contacts& c, ListScratch& w, const Reach
     now.assign(wanted ? static_cast<std::size_t>(places) * lanes : 0, 0.0);
     if (now.empty() || before.empty()) return;
     for (int i = 0; i < s.count(); ++i) {
-      const int old = w.old_of_new[i], from = w.wall_place_before[old / lanes], to = c.wall_place[i / lanes];
+      const int old = w.old_of_new[i], old_slice = old / lanes, to = c.wall_place[i / lanes];
+      if (old_slice >= static_cast<int>(w.wall_place_before.size())) continue;  // a newcomer
+      const int from = w.wall_place_before[old_slice];
       if (from >= 0 && to >= 0) now[to * lanes + i % lanes] = before[from * lanes + old % lanes];
     }
   };
@@ -364,14 +347,16 @@ std::ptrdiff_t slot_of(const Contacts& c, int i, int j) {
 void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Circle& pipe,
              const std::vector<Segment>& walls) {
   check_places(s, reach.length);
-  const int n = s.count(), slices = (n + lanes - 1) / lanes;
+  const int before = s.count();
+  const int n = before - static_cast<int>(std::count(w.leaves.begin(), w.leaves.end(), 1));
+  const int slices = (n + lanes - 1) / lanes;
   const int window = window_of(s), windows = (n + window - 1) / window;
   if (n == 0) fail(Exit::invalid_case, "bed.count = 0: a bed needs at least one grain");
   const double largest = *std::max_element(s.diameter.begin(), s.diameter.end());
   const double list_reach = reach.gamma * largest + reach.skin;
-  const Cells cells = make_cells(s.y, n, list_reach, reach.length);
+  const Cells cells = make_cells(s.y, before, list_reach, reach.length);
   const std::size_t histories = c.built() ? count_histories(s, c, w) : 0;
-  const std::size_t grains = n, padded = n + lanes;
+  const std::size_t grains = before, padded = before + lanes;
   w.memory.divide<std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t,
                   double, double, double, std::int32_t, std::int32_t, std::int32_t, Remembered, double, double>(
       {w.cell, grains}, {w.cell_start, static_cast<std::size_t>(cells.count()) + 1}, {w.old_of_rank, grains},
@@ -380,7 +365,8 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
       {w.remembered, histories}, {w.remembered_rolling, c.rolling.empty() ? 0 : histories}, {w.values, grains});
   if (histories > 0) remember(s, c, w);
 
-  rank_by_cell(s, cells, reach.gamma, w);
+  rank_by_cell(s, cells, reach.gamma, n, w);
+  if (n < before) std::fill_n(w.new_of_old.begin(), before, -1);
   w.found.resize(windows);
   const auto find = kernels().find;
   base::for_each_item(0, windows, [&](int k) {
@@ -389,7 +375,7 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
     w.found[k].assign(found, found + find(cells, reach, begin, end, w, found));
     sort_window(begin, end, s.sleep, w);
   });
-  reorder_all(s, w);
+  each_grain_array(s, [&](auto& a) { reorder(a, n, w); });
 
   const int old_slices = c.slices();
   count_rows(s, c, w, reach.rolling);

@@ -86,6 +86,7 @@ struct ListScratch {
   base::Lease<Remembered> remembered;
   base::Lease<double> remembered_rolling;
   base::Lease<double> values;                    ///< an array in its old order
+  std::vector<std::int32_t> leaves;              ///< 1 = the grain leaves the bed; empty: nobody does
   std::vector<std::vector<std::int32_t>> found;  ///< of each window of ranks: neighbours (ranks) grain by grain
   std::vector<std::int32_t> remembered_first;    ///< of each slice of the old order
   std::vector<std::int32_t> wall_place_before;
@@ -125,7 +126,8 @@ inline Real nearest_image(const Real& dx, double length) {
 }
 }  // namespace LIVEBED_SET
 
-/// Sorts the grains, builds the lists for the present positions and carries every history over.  Throws Fault
+/// Sorts the grains, builds the lists for the present positions and carries every history over.  Grains that leave
+/// (ListScratch::leaves) are dropped, those appended to the state since the lists were made come in.  Throws Fault
 /// (diverged) for a grain that is not finite, outside the box or with more neighbours than space allows, (invalid case)
 /// for a box shorter than two reaches.  Walls are pieces besides floor and pipe.
 void rebuild(State& state, Contacts& contacts, ListScratch& scratch, const Reach& reach, const Circle& pipe,

@@ -14,7 +14,10 @@ using base::square;
 
 namespace {
 
-constexpr int looks_a_rest = 2;   ///< a grain must be found calm as often as this, each time after half of sleep_time
+constexpr int looks_a_rest = 2;  ///< a grain must be found calm as often as this, each time after half of sleep_time
+/// A grain that carries little among others that carry much is no reason to wake: it is measured by what the grains of
+/// its slice carry on average, but never by more than this over its own load.
+constexpr double most_over_own = 5;
 constexpr int looks_to_wake = 3;  ///< a change must last for as many looks: a knock that passes through does not wake
 
 double weight(const Params& p, double d) { return mass(p, d) * submerged_gravity(p); }
@@ -28,6 +31,14 @@ void each_grain(const State& s, int slice, Body&& body) {
 /// Force of the fluid on a grain that does not move [N].
 base::Vec2 fluid_force(const FluidForce& f, int i) {
   return {f.fx[i] + f.beta[i] * f.u[i], f.fy[i] + f.beta[i] * f.v[i]};
+}
+
+/// Whether nothing about the fluid's force on the grains of a slice is new.
+bool all_still(const State& s, int slice) {
+  if (s.fluid.still.empty()) return false;
+  bool all = true;
+  each_grain(s, slice, [&](int i) { all &= s.fluid.still[i] != 0; });
+  return all;
 }
 
 /// Calls body(slot, i, j) for every neighbour j of the grains i of a slice.
@@ -103,11 +114,14 @@ bool in_balance(Bed& bed, const Sweep& k, int slice) {
   SliceForce force;
   kernels().push_slice(k, bed.contacts, bed.records, slice, force);
   Sleep& z = bed.state.sleep;
+  double own[lanes], sum = 0;
+  each_grain(bed.state, slice, [&](int i) { sum += own[i % lanes] = load_of(bed, k, i); });
+  const double mean = sum / std::min(lanes, bed.state.count() - slice * lanes);
   bool balance = true;
   each_grain(bed.state, slice, [&](int i) {
     const int l = i % lanes;
     const double w = weight(bed.params, bed.state.diameter[i]);
-    z.load[i] = load_of(bed, k, i);
+    z.load[i] = std::clamp(mean, own[l], most_over_own * own[l]);
     const double limit = bed.params.sleep_force * z.load[i];
     const base::Vec2 fluid = fluid_force(bed.state.fluid, i);
     z.contact_x[i] = force.x[l], z.contact_y[i] = force.y[l], z.twist[i] = force.twist[l];
@@ -120,7 +134,7 @@ bool in_balance(Bed& bed, const Sweep& k, int slice) {
 void count_impulse(Bed& bed, int slice) {
   State& s = bed.state;
   std::int64_t& from = bed.records.slept_from[slice];
-  const double time = static_cast<double>(bed.steps - from) * bed.params.step;
+  const double time = static_cast<double>(bed.steps - std::max(from, bed.records.call_began)) * bed.params.step;
   each_grain(s, slice, [&](int i) {
     const base::Vec2 force = fluid_force(s.fluid, i);
     s.impulse_x[i] += time * force.x;
@@ -212,7 +226,7 @@ void wake_by_fluid(Bed& bed) {
   const int slices = bed.contacts.slices();
   base::for_each_item(0, slices, [&](int slice) {
     r.turn[slice] = 0;
-    if (r.asleep[slice] == 0) return;
+    if (r.asleep[slice] == 0 || all_still(s, slice)) return;
     each_grain(s, slice, [&](int i) {
       const base::Vec2 now = fluid_force(s.fluid, i);
       const double limit = bed.params.sleep_drag * s.sleep.load[i];
@@ -282,9 +296,9 @@ void look(Bed& bed, const Sweep& k) {
   if (any) list_awake(r);
 }
 
-void count_impulses(Bed& bed) {
+void count_impulses(Bed& bed, bool of_still) {
   base::for_each_item(0, static_cast<int>(bed.records.asleep.size()), [&](int slice) {
-    if (bed.records.asleep[slice] != 0) count_impulse(bed, slice);
+    if (bed.records.asleep[slice] != 0 && (of_still || !all_still(bed.state, slice))) count_impulse(bed, slice);
   });
 }
 

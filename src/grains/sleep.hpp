@@ -27,8 +27,10 @@ void wake_by_fluid(Bed& bed);
 /// Looks at the neighbours of those awake and lets fall asleep who has been at rest for long; after a step.
 void look(Bed& bed, const Sweep& k);
 
-/// Gives the sleepers the impulse of the fluid since it was last counted.
-void count_impulses(Bed& bed);
+/// Gives the sleepers the impulse of the fluid since it was last counted, but none from before the present call of
+/// advance.  of_still: those, too, whose impulse nobody asks for (FluidForce::still); some of them may be about to
+/// wake.
+void count_impulses(Bed& bed, bool of_still);
 
 /// Share of the grains that are asleep [-].
 double share_asleep(const State& s);

@@ -31,6 +31,7 @@ void pass_bed_scalars(GroupLike& g, BedLike& bed) {
   pass(g, "built_pipe_present", built.present), pass(g, "built_pipe_x", built.x), pass(g, "built_pipe_y", built.y);
   pass(g, "built_pipe_diameter", built.diameter);
   pass(g, "rebuilds", bed.contacts.rebuilds), pass(g, "refreshed", bed.contacts.refreshed), pass(g, "steps", bed.steps);
+  pass(g, "outside", bed.outside);
   pass(g, "pipe_impulse_x", bed.pipe_impulse.x), pass(g, "pipe_impulse_y", bed.pipe_impulse.y);
 }
 

@@ -16,7 +16,7 @@ namespace livebed::run {
 
 namespace {
 
-constexpr std::int64_t format_version = 5;
+constexpr std::int64_t format_version = 6;
 
 /// Calls visit(name, field) for every field of the flow that the next step reads.
 template <class FlowState, class Visit>
@@ -70,33 +70,38 @@ void save_checkpoint(const std::filesystem::path& file, Simulation& sim, const P
   root.write("compiler", std::string(base::compiler()));
   root.write("case", casefile::resolved_text(sim.resolved()));
   root.write("bed_level", sim.resolved().bed_thickness);
-  Simulation::each_part(
-      sim, [&](flow::Solver& solver, grains::Bed& bed, coupling::Coupler& coupler, Clock& clock, WallTimes& wall) {
-        const flow::State& s = solver.state;
-        io::Group flow = root.make("flow");
-        each_field(s, [&](const char* name, const base::Field& f) {
-          if (f.nx() > 0) flow.write(name, f);
-        });
-        pass(flow, "step", s.step), pass(flow, "time", s.time), pass(flow, "load_top", s.load.top);
-        pass(flow, "has_voids", s.voidage.nx() > 0);
-        const flow::Boundary& sides = solver.boundary();
-        flow.write("inlet_u", sides.inlet_u), flow.write("inlet_k", sides.inlet_k);
-        flow.write("inlet_epsilon", sides.inlet_epsilon);
-        io::Group grains = root.make("grains");
-        if (bed.state.count() > 0) write_bed(grains, bed);
-        io::Group exchange = root.make("exchange");
-        coupling::Coupler::each_part(std::as_const(coupler),
-                                     [&](const char* name, const auto& part) { exchange.write(name, part); });
-        const coupling::ImpulseLedger& l = coupler.ledger();
-        exchange.write("ledger", std::vector<double>{l.to_grains.x, l.to_grains.y, l.to_flow.x, l.to_flow.y,
-                                                     l.carried.x, l.carried.y});
-        io::Group run = root.make("run");
-        pass_scalars(run, std::as_const(clock), std::as_const(wall), progress);
-        if (asks_for_more(sim.resolved().output)) {
-          io::Group more = root.make("more_output");
-          pass_more(more, progress);
-        }
-      });
+  Simulation::each_part(sim, [&](flow::Solver& solver, grains::Bed& bed, coupling::Coupler& coupler, Supply& supply,
+                                 Clock& clock, WallTimes& wall) {
+    const flow::State& s = solver.state;
+    io::Group flow = root.make("flow");
+    each_field(s, [&](const char* name, const base::Field& f) {
+      if (f.nx() > 0) flow.write(name, f);
+    });
+    pass(flow, "step", s.step), pass(flow, "time", s.time), pass(flow, "load_top", s.load.top);
+    pass(flow, "has_voids", s.voidage.nx() > 0);
+    const flow::Boundary& sides = solver.boundary();
+    flow.write("inlet_u", sides.inlet_u), flow.write("inlet_k", sides.inlet_k);
+    flow.write("inlet_epsilon", sides.inlet_epsilon);
+    io::Group grains = root.make("grains");
+    if (bed.state.count() > 0) write_bed(grains, bed);
+    io::Group exchange = root.make("exchange");
+    coupling::Coupler::each_part(std::as_const(coupler),
+                                 [&](const char* name, const auto& part) { exchange.write(name, part); });
+    const coupling::ImpulseLedger& l = coupler.ledger();
+    exchange.write("ledger", std::vector<double>{l.to_grains.x, l.to_grains.y, l.to_flow.x, l.to_flow.y, l.carried.x,
+                                                 l.carried.y});
+    if (!supply.goes_round()) {
+      io::Group ends = root.make("supply");
+      SupplyState::each_part(std::as_const(supply.state()),
+                             [&](const char* name, const auto& part) { pass(ends, name, part); });
+    }
+    io::Group run = root.make("run");
+    pass_scalars(run, std::as_const(clock), std::as_const(wall), progress);
+    if (asks_for_more(sim.resolved().output)) {
+      io::Group more = root.make("more_output");
+      pass_more(more, progress);
+    }
+  });
   writer.save();
 }
 
@@ -120,30 +125,34 @@ Restored load_checkpoint(const std::filesystem::path& file) {
   grains::Bed bed;
   if (resolved.grains.count > 0) bed = read_bed(root.open("grains"), resolved.grains);
   Restored result{Simulation(resolved, std::move(bed)), {}, {}};
-  Simulation::each_part(
-      result.sim, [&](flow::Solver& solver, grains::Bed&, coupling::Coupler& coupler, Clock& clock, WallTimes& wall) {
-        flow::State& s = solver.state;
-        const io::Group flow = root.open("flow");
-        bool voids = false;
-        pass(flow, "has_voids", voids);
-        if (voids) s.voidage = s.u;
-        each_field(s, [&](const char* name, base::Field& f) {
-          if (f.nx() > 0) flow.read(name, f);
-        });
-        pass(flow, "step", s.step), pass(flow, "time", s.time), pass(flow, "load_top", s.load.top);
-        if (voids) solver.set_voidage(base::Field(s.voidage), 0);
-        const io::Group exchange = root.open("exchange");
-        coupling::Coupler::each_part(coupler, [&](const char* name, auto& part) { exchange.read(name, part); });
-        std::vector<double> l;
-        exchange.read("ledger", l);
-        coupler.restore_ledger({{l.at(0), l.at(1)}, {l.at(2), l.at(3)}, {l.at(4), l.at(5)}});
-        const io::Group run = root.open("run");
-        pass_scalars(run, clock, wall, result.progress);
-        if (asks_for_more(resolved.output)) {
-          const io::Group more = root.open("more_output");
-          pass_more(more, result.progress);
-        }
-      });
+  Simulation::each_part(result.sim, [&](flow::Solver& solver, grains::Bed&, coupling::Coupler& coupler, Supply& supply,
+                                        Clock& clock, WallTimes& wall) {
+    flow::State& s = solver.state;
+    const io::Group flow = root.open("flow");
+    bool voids = false;
+    pass(flow, "has_voids", voids);
+    if (voids) s.voidage = s.u;
+    each_field(s, [&](const char* name, base::Field& f) {
+      if (f.nx() > 0) flow.read(name, f);
+    });
+    pass(flow, "step", s.step), pass(flow, "time", s.time), pass(flow, "load_top", s.load.top);
+    if (voids) solver.set_voidage(base::Field(s.voidage), 0);
+    const io::Group exchange = root.open("exchange");
+    coupling::Coupler::each_part(coupler, [&](const char* name, auto& part) { exchange.read(name, part); });
+    std::vector<double> l;
+    exchange.read("ledger", l);
+    coupler.restore_ledger({{l.at(0), l.at(1)}, {l.at(2), l.at(3)}, {l.at(4), l.at(5)}});
+    if (!supply.goes_round()) {
+      const io::Group ends = root.open("supply");
+      SupplyState::each_part(supply.state(), [&](const char* name, auto& part) { pass(ends, name, part); });
+    }
+    const io::Group run = root.open("run");
+    pass_scalars(run, clock, wall, result.progress);
+    if (asks_for_more(resolved.output)) {
+      const io::Group more = root.open("more_output");
+      pass_more(more, result.progress);
+    }
+  });
   const auto differs = [&](const char* what, const std::string& then, std::string_view now) {
     if (then != now)
       result.note += fmt::format("{}the checkpoint was written by {} {}, this is {}", result.note.empty() ? "" : "; ",

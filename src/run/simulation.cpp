@@ -125,9 +125,10 @@ Simulation::Simulation(const casefile::Case& resolved, grains::Bed bed)
     : case_(resolved),
       bed_(std::move(bed)),
       flow_(resolved.flow, mesh_of(resolved), flow::make_boundary(mesh_of(resolved), resolved.flow)),
+      supply_(resolved),
       coupler_(resolved.coupling, flow_,
                {resolved.grains.diameter, resolved.grains.density, resolved.grains.added_mass, resolved.flow.viscosity,
-                resolved.grains.count, resolved.grains.seed}),
+                resolved.grains.count, resolved.grains.seed, supply_.margin()}),
       solid_(flow_.mesh().nx, flow_.mesh().ny) {
   flow_.start();
 }
@@ -157,7 +158,8 @@ void Simulation::spin_up_step() {
 
 void Simulation::release() {
   clock_.released = true;
-  coupler_.let_go();
+  coupler_.let_go(bed_.state);
+  std::fill(bed_.state.laps.begin(), bed_.state.laps.end(), 0);
 }
 
 void Simulation::step() {
@@ -179,6 +181,7 @@ void Simulation::step() {
     grain_force_ = (1.0 / (dt * case_.grains.diameter)) * bed_.pipe_impulse;
     Stopwatch watch(wall_.exchange);
     coupler_.collect(bed_.state, flow_, dt);
+    supply_.pass_ends(bed_, coupler_, dt);
   }
   last_step_ = dt;
   ++clock_.flow_steps;

@@ -10,6 +10,7 @@
 #include "grains/advance.hpp"
 #include "grains/packing.hpp"
 #include "run/bed_cache.hpp"
+#include "run/supply.hpp"
 
 namespace livebed::run {
 
@@ -63,6 +64,7 @@ public:
   const coupling::Coupler& coupler() const { return coupler_; }
   const flow::StepReport& last_report() const { return report_; }
   double last_step() const { return last_step_; }
+  const Supply& supply() const { return supply_; }
   const Clock& clock() const { return clock_; }
   const WallTimes& wall() const { return wall_; }
   WallTimes& wall() { return wall_; }
@@ -77,7 +79,7 @@ public:
   /// What a checkpoint saves and restores, each part under its own name; see run/checkpoint.
   template <class Self, class Visit>
   static void each_part(Self& self, Visit&& visit) {
-    visit(self.flow_, self.bed_, self.coupler_, self.clock_, self.wall_);
+    visit(self.flow_, self.bed_, self.coupler_, self.supply_, self.clock_, self.wall_);
   }
 
 private:
@@ -90,6 +92,7 @@ private:
   casefile::Case case_;
   grains::Bed bed_;
   flow::Solver flow_;
+  Supply supply_;
   coupling::Coupler coupler_;
   Clock clock_;
   WallTimes wall_;

@@ -76,6 +76,11 @@ void write_summary(const std::filesystem::path& folder, const Simulation& sim, c
   j["grain_steps"] = clock.grain_steps;
   j["cells"] = mesh.nx * mesh.ny;
   j["grains"] = c.grains.count;
+  if (!sim.supply().goes_round()) {
+    const SupplyState& ends = sim.supply().state();
+    j["supply"] = {
+        {"left", ends.left}, {"entered", ends.entered}, {"waiting", ends.waiting.size()}, {"owed", ends.owed}};
+  }
   if (c.grains.sleep) j["share_asleep"] = progress.theta_time > 0 ? progress.asleep_sum / progress.theta_time : 0.0;
   j["threads"] = base::threads();
   j["peak_memory_MB"] = peak_memory_MB();

@@ -12,9 +12,10 @@ namespace livebed::run {
 
 namespace {
 
-/// Where the grain of each id is in the storage.
-std::vector<int> places_of(const grains::State& s) {
-  std::vector<int> places(static_cast<std::size_t>(s.count()));
+/// Where the grain of each id is in the storage; -1: it is not in the bed.
+std::vector<int> places_of(const grains::Bed& bed) {
+  const grains::State& s = bed.state;
+  std::vector<int> places(static_cast<std::size_t>(bed.params.count), -1);
   for (int i = 0; i < s.count(); ++i) places[s.id[i]] = i;
   return places;
 }
@@ -56,11 +57,12 @@ std::vector<std::int32_t> choose_tracks(const Simulation& sim, double level) {
 std::vector<std::vector<double>> track_rows(const Simulation& sim, const std::vector<std::int32_t>& ids) {
   const grains::State& s = sim.bed().state;
   const grains::FluidForce& water = s.fluid;
-  const std::vector<int> places = places_of(s);
+  const std::vector<int> places = places_of(sim.bed());
   const std::vector<base::Vec2> contact = grains::contact_forces(sim.bed());
   std::vector<std::vector<double>> rows;
   for (const std::int32_t id : ids) {
     const int i = places[id];
+    if (i < 0) continue;  // outside until it comes in again
     rows.push_back({sim.time(), static_cast<double>(id), s.x[i], s.y[i], s.u[i], s.v[i], s.omega[i],
                     water.fx[i] + water.beta[i] * (water.u[i] - s.u[i]),
                     water.fy[i] + water.beta[i] * (water.v[i] - s.v[i]), contact[i].x, contact[i].y});

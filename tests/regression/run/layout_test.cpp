@@ -58,7 +58,7 @@ TEST_F(CheckpointLayout, is_what_the_page_says) {
   const std::string ours =
       " --set coupling.voidage=on --set coupling.drag=di_felice --set coupling.dispersion=random_walk"
       " --set coupling.exchange=implicit --set output.profiles_every=0.1 --set output.tracks_every=0.1"
-      " --set output.contacts_every=0.1";
+      " --set output.contacts_every=0.1 --set bed.supply=none";
   ASSERT_EQ(run("--threads 1 " + small_run("0.01", "ours" + ours)).exit, 0);
   const Names paper = stored(run::list_checkpoints(*this / "paper").back());
   Names all = stored(run::list_checkpoints(*this / "ours").back());

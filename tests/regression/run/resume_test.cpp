@@ -55,6 +55,19 @@ TEST_F(Resume, after_ctrl_c_gives_the_unbroken_run) {
   expect_same_run(*this / "whole", *this / "parts");
 }
 
+TEST_F(Resume, with_sand_that_leaves_and_enters_gives_the_unbroken_run) {
+  const std::string supply =
+      small_start +
+      " --set preset=livebed --set bed.supply=equilibrium --set current.theta=0.4 --set grains.sleep=true"
+      " --set mesh.length=0.2 --set pipe.x=0.13 --set bed.count=800";
+  ASSERT_EQ(run("--threads 2 " + small_run("0.4", "whole", supply)).exit, ok);
+  ASSERT_EQ(run(one + small_run("0.25", "parts", supply)).exit, ok);
+  ASSERT_EQ(run(one + "resume parts --quiet --until 0.4").exit, ok);
+  expect_contains(content(*this / "whole/summary.json"), {"\"supply\""});
+  EXPECT_EQ(content(*this / "whole/summary.json").find("\"entered\":0"), std::string::npos);
+  expect_same_run(*this / "whole", *this / "parts");
+}
+
 TEST_F(Resume, from_a_stop_at_the_release_gives_the_unbroken_run) {
   const std::string one_step = " --set bed.count=500 --set time.spin_up=1e-6";
   ASSERT_EQ(run(one + small_run("0.05", "whole", one_step)).exit, ok);
@@ -127,7 +140,7 @@ TEST_F(Resume, with_grains_asleep_gives_the_unbroken_run) {
   ASSERT_EQ(run("--threads 1 " + small_run("0.3", "whole", sleepy)).exit, ok);
   ASSERT_EQ(run("--threads 2 " + small_run("0.13", "parts", sleepy)).exit, ok);
   for (const std::string end : {"0.21", "0.3"}) ASSERT_EQ(run(one + "resume parts --quiet --until " + end).exit, ok);
-  const std::string still = datasets_of(run::list_checkpoints(*this / "parts").back()).at("/exchange/still");
+  const std::string still = datasets_of(run::list_checkpoints(*this / "parts").back()).at("/grains/fluid_still");
   EXPECT_GT(std::count(still.begin(), still.end(), '\1'), 50) << "hardly anybody sleeps";
   expect_same_run(*this / "whole", *this / "parts");
 }

@@ -106,7 +106,7 @@ TEST(coupler, passes_over_held_grains_until_they_are_let_go) {
   // Another water is seen when the next round begins.
   for (int n = 1; n < steps_a_round; ++n) EXPECT_NEAR(load(0.4, true), beta(0.2), 1e-12 * beta(0.2)) << "step " << n;
   EXPECT_NEAR(load(0.4, true), beta(0.4), 1e-12 * beta(0.4));
-  pair.coupler.let_go();
+  pair.coupler.let_go(pair.g);
   pair.g.u = {0.0, 0.0}, pair.g.v = {0.0, 0.0};
   EXPECT_NEAR(load(0.1, false), beta(0.1), 1e-12 * beta(0.1));
 }
