@@ -227,6 +227,10 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
   keys({"bed.supply", "current.profile"})
       .fault_if(c.supply != Supply::periodic && c.flow.current.profile == flow::Profile::recycled,
                 "current.profile = \"recycled\" is a channel without ends: bed.supply must be \"periodic\"");
+  keys({"current.rise", "current.profile"})
+      .fault_if(c.flow.current.rise > 0 && c.flow.current.profile == flow::Profile::recycled,
+                "current.rise = {} s needs an inlet; current.profile = \"recycled\" makes its own",
+                c.flow.current.rise);
   const double feed_begins = feed_from * (c.flow.pipe.present ? c.flow.pipe.x : mesh.length);
   keys({"bed.supply", "pipe.x", "mesh.length", "grains.diameter"})
       .fault_if(

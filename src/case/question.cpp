@@ -94,6 +94,9 @@ std::string case_text(const Question& q, double d) {
       real && q.current > 0
           ? fmt::format("mean_speed = \"{:.6g} m/s\"  # over the depth", q.current)
           : fmt::format("theta = {:.6g}  # u*^2/((s-1) g d){}", theta, real ? "" : ", that of the real sand");
+  const std::string supply = feed_from * x < feed_behind_inlet * d
+                                 ? "\"periodic\"  # what leaves comes in again; the grains are too large for a feed"
+                                 : "\"equilibrium\"  # what moves well before the pipe comes in; what leaves is gone";
   const double least_cell = most_cell_over_D * D;
   return head(q, d) +
          fmt::format(R"(preset = "livebed"
@@ -126,6 +129,7 @@ viscosity = "1e-6 m2/s"
 
 [bed]
 thickness = "{bed:.6g} m"  # 2 D, so that the hole does not meet the floor
+supply = {supply}
 
 [grains]
 diameter = "{d:.4g} mm"
@@ -154,7 +158,7 @@ checkpoint_every = "{checkpoint:.2g} s"
                      fmt::arg("fine_y_from", bed - fine_below_bed * D),
                      fmt::arg("fine_y_to", bed + (std::max(q.gap_ratio, 0.0) + 1 + fine_above_pipe) * D),
                      fmt::arg("D", D), fmt::arg("x", x), fmt::arg("current", current), fmt::arg("bed", bed),
-                     fmt::arg("d", 1e3 * d), fmt::arg("grain_step", grain_step_of(d)),
+                     fmt::arg("supply", supply), fmt::arg("d", 1e3 * d), fmt::arg("grain_step", grain_step_of(d)),
                      fmt::arg("spin_up", box_passages * box_length * D / scene.mean_speed), fmt::arg("end", end_over_T),
                      fmt::arg("T", T), fmt::arg("series", T / 500), fmt::arg("bed_every", T / 100),
                      fmt::arg("fields", T / 10), fmt::arg("checkpoint", T / 4));

@@ -143,6 +143,10 @@ void add_current(std::vector<Row>& s) {
   s.push_back(real("current.roughness", "m", current(&C::roughness))
                   .at_least(0)
                   .says("ks of the approaching bed; 2.5 d when 0"));
+  s.push_back(real("current.rise", "s", current(&C::rise))
+                  .at_least(0)
+                  .says("time in which the current rises from a tenth, at which no sand moves, to its full speed once "
+                        "the grains are free; 0: it is there when they are let go"));
 }
 
 }  // namespace livebed::casefile

@@ -53,6 +53,7 @@ struct CurrentParams {
   double mean_speed = 0;      ///< depth-mean over the water [m/s]; derived
   double roughness = 0;       ///< ks [m], 2.5 d unless given
   double bed_level = 0;       ///< height where the profile starts [m]
+  double rise = 0;            ///< time in which the current comes up once the grains are free [s]; 0: it is there
 };
 
 struct Params {

@@ -102,8 +102,15 @@ void sort_window(int begin, int end, const Sleep& sleep, ListScratch& w) {
 template <class T>
 void reorder(T& a, int count, ListScratch& w) {
   if (a.empty()) return;
-  std::copy(a.begin(), a.end(), w.values.begin());  // integers fit into doubles
-  for (int k = 0; k < count; ++k) a[k] = static_cast<typename T::value_type>(w.values[w.old_of_new[k]]);
+  constexpr int block = 8192;
+  const int before = static_cast<int>(a.size());
+  const auto in_blocks = [](int n, auto&& body) {
+    base::for_each_item(0, (n + block - 1) / block, [&](int b) {
+      for (int k = b * block; k < std::min(n, (b + 1) * block); ++k) body(k);
+    });
+  };
+  in_blocks(before, [&](int k) { w.values[k] = static_cast<double>(a[k]); });  // integers fit into doubles
+  in_blocks(count, [&](int k) { a[k] = static_cast<typename T::value_type>(w.values[w.old_of_new[k]]); });
   a.resize(count);
 }
 

@@ -59,4 +59,17 @@ void recycle_inlet(const casefile::Case& c, double level, double dt, flow::Solve
   flow.set_inlet(mean);
 }
 
+double risen_share(double time, double rise) {
+  constexpr double at_first = 0.1;  // a hundredth of the shear stress
+  return std::clamp(time / rise, at_first, 1.0);
+}
+
+void scale_inlet(const flow::Column& full, double share, flow::Solver& flow) {
+  flow::Column now = full;
+  for (double& u : now.u) u *= share;
+  for (double& k : now.k) k = std::max(flow::k_floor, k * base::square(share));
+  for (double& e : now.epsilon) e = std::max(flow::epsilon_floor, e * base::cube(share));
+  flow.set_inlet(now);
+}
+
 }  // namespace livebed::run

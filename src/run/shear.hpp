@@ -16,4 +16,10 @@ double measured_shields(const casefile::Case& c, const flow::Solver& flow, doubl
 /// [s].
 void recycle_inlet(const casefile::Case& c, double level, double dt, flow::Solver& flow);
 
+/// The part of its full speed that a current has which rises with time [-]: a tenth at first, then linearly all.
+double risen_share(double time, double rise);
+/// Lets the share of the full current through the inlet of the next step: velocity with it, k with its square, epsilon
+/// with its cube, as in a developed flow.
+void scale_inlet(const flow::Column& full, double share, flow::Solver& flow);
+
 }  // namespace livebed::run

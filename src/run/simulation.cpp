@@ -125,11 +125,13 @@ Simulation::Simulation(const casefile::Case& resolved, grains::Bed bed)
     : case_(resolved),
       bed_(std::move(bed)),
       flow_(resolved.flow, mesh_of(resolved), flow::make_boundary(mesh_of(resolved), resolved.flow)),
+      full_inlet_{flow_.boundary().inlet_u, flow_.boundary().inlet_k, flow_.boundary().inlet_epsilon},
       supply_(resolved),
       coupler_(resolved.coupling, flow_,
                {resolved.grains.diameter, resolved.grains.density, resolved.grains.added_mass, resolved.flow.viscosity,
                 resolved.grains.count, resolved.grains.seed, supply_.margin()}),
       solid_(flow_.mesh().nx, flow_.mesh().ny) {
+  if (case_.flow.current.rise > 0) scale_inlet(full_inlet_, risen_share(0, case_.flow.current.rise), flow_);
   flow_.start();
 }
 
@@ -190,6 +192,8 @@ void Simulation::step() {
 
 void Simulation::advance_flow(double dt) {
   Stopwatch watch(wall_.flow);
+  const double rise = case_.flow.current.rise;
+  if (rise > 0) scale_inlet(full_inlet_, risen_share(time(), rise), flow_);
   try {
     report_ = flow_.advance(dt);
     check_finite();

@@ -92,6 +92,7 @@ private:
   casefile::Case case_;
   grains::Bed bed_;
   flow::Solver flow_;
+  flow::Column full_inlet_;  ///< of the current that has risen
   Supply supply_;
   coupling::Coupler coupler_;
   Clock clock_;

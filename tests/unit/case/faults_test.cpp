@@ -175,6 +175,12 @@ const Bad bad_cases[] = {
      "bad.toml:4: bed.pieces = 6 are 41.7 grains long each; 50 are needed, so at most 5 pieces"},
     {"pieces_between_walls", "[bed]\npieces = 2\nside_walls = true\n",
      "bad.toml:4: bed.pieces = 2 fit together only without walls: remove bed.walls and bed.side_walls"},
+    {"supply_between_walls", "[bed]\nsupply = \"none\"\nside_walls = true\n",
+     "bad.toml:4: bed.supply other than \"periodic\" needs ends without walls: remove bed.walls and bed.side_walls"},
+    {"supply_of_large_grains", "[bed]\nsupply = \"equilibrium\"\n[pipe]\nx = 0.1\n",
+     "bad.toml:4: bed.supply = \"equilibrium\" takes its measure 12.5 grains behind the inlet, a quarter of the way to "
+     "the pipe; at "
+     "least 16 are needed: move the pipe or the outlet downstream"},
     {"pieces_of_a_file", "[bed]\npieces = 2\nfile = \"one.data\"\n",
      "bad.toml:4: bed.pieces = 2 are for a bed that is packed; bed.file gives one"},
     {"pieces_that_are_not_alike", "[bed]\npieces = 2\ncount = 6241\n",

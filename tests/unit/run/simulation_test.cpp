@@ -136,5 +136,28 @@ TEST(simulation, takes_a_new_end_whatever_the_case_was_given_by) {
   EXPECT_NEAR(sim.resolved().time.end_over_T * sim.resolved().time_scale, 0.4, 1e-12);
 }
 
+TEST(simulation, lets_a_current_rise_that_is_told_to) {
+  const Simulation::Start start = Simulation::prepare(casefile::read_case(
+      LIVEBED_SOURCE_DIR "/cases/quick", {"preset=livebed", "mesh.length=0.1", "mesh.height=0.06", "pipe.x=0.04",
+                                          "bed.count=240", "time.spin_up=0.05", "current.rise=0.1"}));
+  Simulation sim(start.resolved, start.bed);
+  const double full = start.resolved.flow.current.mean_speed;
+  const auto through_inlet = [&] {
+    const flow::Mesh& m = sim.flow().mesh();
+    double sum = 0;
+    for (int j = 0; j < m.ny; ++j) sum += sim.flow().state.u(0, j) * m.aperture_x(0, j) * m.dy(j);
+    return sum / (m.height() - start.resolved.bed_thickness) / full;
+  };
+  while (sim.time() < 0) sim.spin_up_step();
+  const double still = through_inlet();
+  EXPECT_NEAR(still, 0.1, 0.01);
+  sim.release();
+  while (sim.time() < 0.05) sim.step();
+  const double half = through_inlet();
+  EXPECT_NEAR(half / still, 5, 0.1);
+  while (sim.time() < 0.12) sim.step();
+  EXPECT_NEAR(through_inlet() / still, 10, 1e-6);
+}
+
 }  // namespace
 }  // namespace livebed::run
