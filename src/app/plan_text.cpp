@@ -142,6 +142,25 @@ nlohmann::ordered_json json_of(const Scene& w, const Expected& e) {
   return j;
 }
 
+/// Where the numbers of `expected` come from.
+nlohmann::ordered_json formulas(const Scene& w, const Expected& e) {
+  nlohmann::ordered_json j;
+  const auto add = [&](const char* number, const std::string& formula, bool seen) {
+    j[number] = {{"formula", formula}, {"text_seen_in_source", seen}};
+  };
+  add("theta", "u*²/((s-1) g d)", true);
+  add("theta_critical", "0.30/(1 + 1.2 D*) + 0.055 (1 - exp(-0.020 D*)), Soulsby 1997", true);
+  add("fall_speed_m_s", "nu/d (√(10.36² + 1.049 D*³) - 10.36), Soulsby 1997", true);
+  add("rouse", "w_s/(kappa u*)", true);
+  if (w.D == 0) return j;
+  if (e.depth) add("S_eq_over_D", fmt::format("{}, {}", e.depth->formula, e.depth->source), false);
+  if (e.time_scale) add("T_s", time_scale_formula, false);
+  if (e.undermined)
+    add("undermined_s", fmt::format("S = S_eq (1 - exp(-t/T)) reaches {:g} D", casefile::tunnel_depth), true);
+  if (e.onset_speed) add("onset_speed_m_s", onset_formula, false);
+  return j;
+}
+
 nlohmann::ordered_json json_of(const run::Prediction& t) {
   return {{"wall_s", t.wall()},
           {"cpu_s", t.cpu},
@@ -200,6 +219,7 @@ std::string text_of(const Plan& p) {
 
 nlohmann::ordered_json json_of(const Plan& p) {
   nlohmann::ordered_json j{{"title", p.title}, {"expected", json_of(p.scene, casefile::expect(p.scene))}};
+  j["formulas"] = formulas(p.scene, casefile::expect(p.scene));
   if (p.real) j["sand"] = json_of(*p.real, casefile::expect(*p.real));
   j["work"] = {{"grains", p.work.grains}, {"cells", p.work.cells}, {"grain_steps", p.work.grain_steps}};
   j["prediction"] = json_of(p.prediction);

@@ -24,6 +24,10 @@ TEST_F(Plan, of_the_engineers_question_tells_what_to_expect_and_what_larger_grai
   EXPECT_NEAR(grains["expected"]["theta"].get<double>(), sand["theta"].get<double>(), 1e-9);
   EXPECT_GT(grains["diameter_m"].get<double>(), 0.2e-3);
   EXPECT_LE(grains["prediction"]["wall_s"].get<double>(), 12 * 3600);
+  for (const char* number : {"theta_critical", "fall_speed_m_s", "S_eq_over_D", "T_s", "undermined_s"})
+    EXPECT_TRUE(json["formulas"].contains(number) && json["expected"][number].is_number()) << number;
+  expect_contains(json["formulas"]["S_eq_over_D"]["formula"], {"Sumer and Fredsøe 2002"});
+  EXPECT_FALSE(json["formulas"]["S_eq_over_D"]["text_seen_in_source"].get<bool>());
   EXPECT_FALSE(json["fits"].get<bool>());
   EXPECT_NEAR(json["work"]["grains"].get<double>(), 1.54e8, 0.02e8);
   EXPECT_TRUE(everything_in(folder()).empty());
