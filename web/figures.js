@@ -120,9 +120,14 @@ export function bedLoadFigures(run) {
     const { nx, ny, dx, dy } = pack.head, unit = pipe?.D_m ?? 1, x0 = pipe?.x_m ?? 0, y0 = pipe ? run.bed.level : 0;
     const logs = pack.flux.raw.map((v) => (v > 0 ? Math.log10(v) : NaN)), most = logs.reduce((m, v) => (v > m ? v : m), -Infinity);
     if (!Number.isFinite(most)) return null;
+    // Of the rows those in which sand moves, and those around the pipe.
+    const moves = (j) => logs.subarray(j * nx, (j + 1) * nx).some(Number.isFinite), [low, high] = pipe ? [pipe.y_m - 1.5 * pipe.D_m, pipe.y_m + pipe.D_m] : [Infinity, 0];
+    let from = 0, to = ny;
+    while ((from + 1) * dy < low && !moves(from)) ++from;
+    while ((to - 1) * dy > high && !moves(to - 1)) --to;
     return { x: { name: pipe ? 'x/D' : 'x [m]' }, y: { name: pipe ? 'y/D' : 'y [m]', tight: true }, curves: [], equal: true,
       shapes: pipe ? circle(run) : undefined,
-      image: { url: heatUrl(logs, nx, ny, most - 4, most, 'sand'), x0: -x0 / unit, x1: (nx * dx - x0) / unit, y0: -y0 / unit, y1: (ny * dy - y0) / unit },
+      image: { url: heatUrl(logs.subarray(from * nx, to * nx), nx, to - from, most - 4, most, 'sand'), x0: -x0 / unit, x1: (nx * dx - x0) / unit, y0: (from * dy - y0) / unit, y1: (to * dy - y0) / unit },
       bar: bar('log10 of the mean flux |u_p| φ [m/s]', most - 4, most, 'sand'),
       csv: () => ['x_m,y_m,flux_m_s', ...Array.from(pack.flux.raw, (v, n) => `${told(((n % nx) + 0.5) * dx, 5)},${told((Math.floor(n / nx) + 0.5) * dy, 5)},${told(v, 6)}`)].join('\n'),
       note: 'Mean over all frames after the release: what share of a cell is sand, times its speed. Blank: sand never moved there, or never was.' };

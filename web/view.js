@@ -7,6 +7,14 @@ import { opened, quantities, scaleOf, streamlines } from './field.js';
 import { save, saveButtons, standalone } from './figure.js';
 import { Painter } from './painter.js';
 
+/// The box, or of it what lies so many D before and behind the pipe, 3 D above its axis and below.
+function around({ x, y, nx, ny }, pipe, [before, behind]) {
+  const box = { x0: x[0], x1: x[nx], y0: y[0], y1: y[ny] };
+  if (!pipe) return box;
+  const { D_m: D, x_m, y_m } = pipe;
+  return { x0: Math.max(box.x0, x_m - before * D), x1: Math.min(box.x1, x_m + behind * D), y0: Math.max(box.y0, y_m - 3 * D), y1: Math.min(box.y1, y_m + 3 * D) };
+}
+
 let overlays = 0;  // each overlay clips by its own name
 const rim = { left: 40, right: 16, top: 8, bottom: 34 };
 
@@ -69,7 +77,7 @@ export class View {
     this.element.innerHTML = `<div class="tools"><span class="choices">${Object.keys(quantities).map((q) => `<button type="button" data-quantity="${q}">${q}</button>`).join('')}</span>
       <label><input type="checkbox" name="grains" checked> grains</label><label><input type="checkbox" name="streamlines"> streamlines</label>
       <span class="grow"></span><button type="button" name="in" title="zoom in">+</button><button type="button" name="out" title="zoom out">−</button>
-      <button type="button" name="all" title="show the whole box">all</button><span class="save"><button type="button" name="svg">SVG</button><button type="button" name="csv">CSV</button></span></div>
+      <button type="button" name="all" title="show all around the pipe">all</button><span class="save"><button type="button" name="svg">SVG</button><button type="button" name="csv">CSV</button></span></div>
       <div class="plate"><canvas></canvas><div class="over"></div></div>
       <div class="time"><button type="button" name="play" title="play">▶</button><input type="range" min="0" value="0" step="1" aria-label="time"><output></output></div>
       <div class="bars"></div>`;
@@ -136,10 +144,8 @@ export class View {
   }
 
   get #whole() {
-    const { x, y, nx, ny } = this.frame, { pipe } = this.run.head;
-    const box = { x0: x[0], x1: x[nx], y0: y[0], y1: y[ny] };
-    if (!pipe || box.x1 - box.x0 < 12 * pipe.D_m) return box;
-    return { ...box, x0: Math.max(box.x0, pipe.x_m - 4 * pipe.D_m), x1: Math.min(box.x1, pipe.x_m + 8 * pipe.D_m) };
+    const { pipe } = this.run.head, { x, nx } = this.frame;
+    return around(this.frame, pipe, pipe && x[nx] - x[0] < 12 * pipe.D_m ? [Infinity, Infinity] : [4, 8]);
   }
 
   zoom(factor, sx = 0.5, sy = 0.5) {
@@ -245,8 +251,7 @@ export async function stagePictures(run, times, holder) {
   const w = 520, painter = new Painter(document.createElement('canvas'));
   holder.innerHTML = '';
   for (const [n, frame] of frames.entries()) {
-    const box = { x0: frame.x[0], x1: frame.x[frame.nx], y0: frame.y[0], y1: frame.y[frame.ny] };
-    if (pipe) [box.x0, box.x1] = [Math.max(box.x0, pipe.x_m - 3 * pipe.D_m), Math.min(box.x1, pipe.x_m + 5 * pipe.D_m)];
+    const box = around(frame, pipe, [3, 5]);
     const h = Math.round((w * (box.y1 - box.y0)) / (box.x1 - box.x0));
     Object.assign(painter.canvas, { width: 2 * w, height: 2 * h });
     painter.load(frame, quantities.speed.of(frame), 0, end, 'viridis');
