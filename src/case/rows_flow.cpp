@@ -72,6 +72,11 @@ void add_flow(std::vector<Row>& s) {
                                    {"laminar", flow::Closure::laminar}})
                   .says("turbulence model: the standard one; with Durbin's bound on its time scale; Menter's SST; none")
                   .from("Eq. 4-7, Table 1: k_epsilon"));
+  s.push_back(
+      real("flow.realizability", "-", flow(&F::realizability))
+          .within(0.54, 1)
+          .says("alpha of k_epsilon_realizable: nut S stays below alpha k/sqrt(3); 1: no negative normal stress, "
+                "0.6: Durbin's later choice, with which pipes shed; the log layer needs 0.54"));
   s.push_back(word<flow::Convection>("flow.convection", flow(&F::convection),
                                      {{"hybrid", flow::Convection::hybrid}, {"bounded", flow::Convection::bounded}})
                   .says("hybrid: central below a cell Peclet number of 2, upwind above; bounded: second order, limited")

@@ -21,6 +21,7 @@ inline constexpr double breakup = 100;
 inline constexpr double k_floor = 1e-10;         ///< [m2/s2], water at rest; keeps k^2/epsilon defined
 inline constexpr double epsilon_floor = 1e-12;   ///< [m2/s3]; with k_floor: nut = 1e-9 m2/s, far below nu
 inline constexpr double nut_over_nu_most = 1e5;  ///< only hit by a start from rest, where epsilon is tiny and k not yet
+inline constexpr double per_sqrt_3 = 0.5773502691896258;
 inline constexpr double log_argument_least = 2.718281828459045;  ///< y/z0 is held above e: the log law ends there
 inline constexpr double fixed_row = 1e14;     ///< factor that makes a row of a line system say c = given value
 inline constexpr double volume_least = 1e-6;  ///< cells with less open volume count as solid [-]

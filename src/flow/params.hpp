@@ -60,6 +60,7 @@ struct Params {
   double density = 1000;    ///< rho [kg/m3]
   double viscosity = 1e-6;  ///< nu [m2/s]
   Closure closure = Closure::k_epsilon;
+  double realizability = 0.6;  ///< alpha of Durbin's bound, of k_epsilon_realizable [-]
   Convection convection = Convection::bounded;
   Algorithm algorithm = Algorithm::projection;
   Wall floor = Wall::rough;

@@ -41,7 +41,7 @@ Field distance_from_walls(const Mesh& m, const Boundary& b) {
 
 }  // namespace
 
-Turbulence::Turbulence(const Mesh& m, const Boundary& b, const Params& params) : law_(closure_law(params.closure)) {
+Turbulence::Turbulence(const Mesh& m, const Boundary& b, const Params& params) : law_(closure_law(params)) {
   if (params.closure == Closure::laminar) return;
   const Field f(m.nx, m.ny);
   strain_ = nut_ = f;

@@ -282,7 +282,7 @@ Result mao_1mm(const Tell& tell) {
                            mao_case,
                            {0, 0, 0},
                            true,
-                           {"grains.diameter=1 mm", "mesh.cell_x=2.5 mm", "mesh.cell_y=0.6 mm", "bed.pieces=1",
+                           {"grains.diameter=1 mm", "mesh.cell_y=0.6 mm", "bed.pieces=1",
                             "time.grain_step=2e-5", "time.spin_up=1.5", "time.end=8.1"}},
                           tell);
 }
