@@ -61,9 +61,10 @@ void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records
                                                                    {r.motion, places}, {r.motion_next, places},
                                                                    {r.own, owners}, {r.filled_at, owners});
     base::for_each_item(0, slices, [&](int slice) { fill_slice(s, slice, steps, r); });
-    // Lanes without a grain have a radius all the same: a mass of nothing would spread.
+    // Lanes without a grain have a radius all the same: a mass of nothing would spread.  They are not where nobody is,
+    // or they would touch: what they feel is added up with the others' at the pipe.
     for (int i = n; i <= last; ++i) {
-      r.place[i] = r.place_next[i] = {0, far_away, 1, 0};
+      r.place[i] = r.place_next[i] = {0, i < last ? 2 * far_away : far_away, 1, 0};
       r.motion[i] = r.motion_next[i] = {0, 0};
     }
     r.pipe_impulse_x.assign(slices, 0);

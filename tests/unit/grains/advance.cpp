@@ -276,3 +276,17 @@ TEST(packing, a_pipe_through_the_floor_is_refused) {
   Bed bed = lattice(small_bed());
   EXPECT_THROW(place_pipe(bed, {.present = true, .x = 0.02, .y = 0.004, .diameter = 0.01}), base::Fault);
 }
+
+TEST(advance, lanes_without_a_grain_do_not_push_the_pipe) {
+  // A slice of one grain and seven idle lanes, in the pipe's reach: with a restitution of 1 the pipe takes twice its
+  // momentum.
+  Params p = bodies::quartz();
+  p.gravity = 0;
+  Bed bed = bodies::bed_of(p, {{.x = 0.05, .y = 0.0431, .v = -0.1}});
+  bed.pipe = {.present = true, .x = 0.05, .y = 0.03, .diameter = 0.024};
+  advance(bed, static_cast<int>(2e-3 / bed.params.step));
+  EXPECT_GT(bed.state.v[0], 0.09);
+  const double taken = -mass(bed.params, bed.state.diameter[0]) * (bed.state.v[0] + 0.1);
+  EXPECT_NEAR(bed.pipe_impulse.y, taken, 1e-9 * std::abs(taken));
+  EXPECT_NEAR(bed.pipe_impulse.x, 0, 1e-12 * std::abs(taken));
+}
