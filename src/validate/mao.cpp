@@ -282,8 +282,8 @@ Result mao_1mm(const Tell& tell) {
                            mao_case,
                            {0, 0, 0},
                            true,
-                           {"grains.diameter=1 mm", "mesh.cell_y=0.6 mm", "bed.pieces=1",
-                            "time.grain_step=2e-5", "time.spin_up=1.5", "time.end=8.1"}},
+                           {"grains.diameter=1 mm", "mesh.cell_y=0.6 mm", "bed.pieces=1", "time.grain_step=2e-5",
+                            "time.spin_up=1.5", "time.end=8.1", "current.rise=0.86"}},
                           tell);
 }
 Result mao_paper(const Tell& tell) { return hold_against_mao({"mao-2mm", mao_paper_case, {0, 0, 0}, true}, tell); }
