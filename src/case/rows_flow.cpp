@@ -56,6 +56,12 @@ void add_pipe(std::vector<Row>& s) {
                   .from("Table 3"));
   s.push_back(
       word("pipe.wall", pipe(&P::wall), walls).says("what the pipe's surface does to the flow").from("Eq. 9-12"));
+  s.push_back(
+      word<flow::PipeLayer>("pipe.boundary_layer", pipe(&P::layer),
+                            {{"turbulent", flow::PipeLayer::turbulent}, {"laminar", flow::PipeLayer::laminar}})
+          .says("turbulent: it leaves the pipe where the wall function's does, late; laminar: where a laminar "
+                "one does (Thwaites 1949), near 80 degrees from the front, and has no eddies within 0.1 D, as on "
+                "smooth pipes below Re_D = 2e5"));
   s.push_back(real("pipe.roughness", "m", pipe(&P::roughness)).at_least(0).says("ks of a rough pipe"));
   s.push_back(derived("pipe.y", "m", pipe(&P::y)).says("centre above the floor of the box, at the nominal bed level"));
 }

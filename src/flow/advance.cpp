@@ -7,6 +7,7 @@
 #include "base/loops.hpp"
 #include "flow/constants.hpp"
 #include "flow/pipe.hpp"
+#include "flow/separation.hpp"
 #include "flow/transport.hpp"
 
 namespace livebed::flow {
@@ -183,6 +184,8 @@ SolveReport Solver::project(double dt, double tolerance, double relax, double& m
 
 StepReport Solver::advance(double dt) {
   const double courant = dt * passage_rate();
+  if (mesh_.has_pipe() && params_.pipe.layer == PipeLayer::laminar)
+    follow_separation(mesh_, work_.wall_cells, params_, dt, state);
   StepReport report = params_.algorithm == Algorithm::simple ? advance_simple(dt) : advance_projection(dt);
   report.courant = courant;
   state.step = dt;

@@ -30,6 +30,14 @@ inline constexpr double volume_least = 1e-6;  ///< cells with less open volume c
 inline constexpr double volume_least_among_grains = 0.05;
 inline constexpr double wall_distance_least =
     0.01;  ///< of a velocity from the pipe, in cells: friction of slivers stays finite [-]
+inline constexpr double thwaites_leaves = -0.09;  ///< theta^2/nu dU/ds where a laminar layer leaves (Thwaites 1949)
+inline constexpr int separation_smoothing = 3;    ///< passes over the pressure along the pipe before that
+inline constexpr double separation_lag = 0.5;     ///< of the wake behind it, over D and the fastest water at the pipe
+/// From the pipe to where the layers that left it laminar have turned turbulent, over D: a few tenths at Re_D of some
+/// 1e4 (Bloor 1964, J. Fluid Mech. 19, 290), shorter beyond.
+inline constexpr double transition_distance = 0.1;
+/// Stress on water that would go on beyond the separation, over rho u^2; 0.3 and 3 give the same drag within 1 %.
+inline constexpr double dead_water = 1.0;
 inline constexpr double aperture_least = 1e-6;  ///< faces with less opening count as closed [-]
 
 }  // namespace livebed::flow

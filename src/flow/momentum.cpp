@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/loops.hpp"
+#include "flow/separation.hpp"
 
 namespace livebed::flow {
 
@@ -101,8 +102,14 @@ void evaluate_walls(const Mesh& m, const Boundary& b, const Params& params, cons
       const int i = part.i, j = part.j, i_b = is_u ? i - 1 : i + 1, j_b = is_u ? j + 1 : j - 1;
       const Field &own = is_u ? s.u : s.v, &other = is_u ? s.v : s.u;
       const double across = 0.25 * (other(i, j) + other(i_b, j) + other(i, j_b) + other(i_b, j_b));
-      part.friction = part.length * wall_friction(params.closure, m.pipe.wall, std::hypot(own(i, j), across),
-                                                  part.distance, m.pipe.roughness, params.viscosity);
+      double factor = wall_friction(params.closure, m.pipe.wall, std::hypot(own(i, j), across), part.distance,
+                                    m.pipe.roughness, params.viscosity);
+      if (params.pipe.layer == PipeLayer::laminar) {
+        const base::Vec2 place = is_u ? base::Vec2{m.x[i], m.centre_y(j)} : base::Vec2{m.centre_x(i), m.y[j]};
+        const base::Vec2 u = is_u ? base::Vec2{own(i, j), across} : base::Vec2{across, own(i, j)};
+        factor = std::max(factor, dead_water_friction(s.separation, {place.x - m.pipe.x, place.y - m.pipe.y}, u));
+      }
+      part.friction = part.length * factor;
       friction.own_row(j)[i] = part.friction;
     }
   };

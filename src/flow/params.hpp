@@ -19,6 +19,10 @@ enum class Algorithm { projection, simple };
 /// smooth log law); no_slip resolves the viscous stress; slip has none.
 enum class Wall { rough, smooth, no_slip, slip };
 
+/// The boundary layer on the pipe.  turbulent: leaves it where the wall function's does.  laminar: where a laminar one
+/// does (flow/separation.hpp), as on pipes below Re_D = 2e5, and stays without eddies close to the pipe.
+enum class PipeLayer { turbulent, laminar };
+
 /// Velocity profile at the inlet: rough and smooth log law, the 1D solution of the same closure, one speed, or what
 /// flows in the box itself, as in a channel without beginning or end.
 enum class Profile { rough, smooth, developed, uniform, recycled };
@@ -42,7 +46,8 @@ struct PipeParams {
   double y = 0;            ///< centre above the floor [m]; derived from the bed level and gap_ratio
   double gap_ratio = 0;    ///< e/D [-], from the level of the bed to the pipe's lowest point; negative = embedded
   Wall wall = Wall::smooth;
-  double roughness = 0;              ///< ks [m] of the rough law
+  double roughness = 0;  ///< ks [m] of the rough law
+  PipeLayer layer = PipeLayer::turbulent;
   double least_open = volume_least;  ///< cells with less open volume count as solid [-]
 };
 

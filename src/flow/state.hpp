@@ -14,6 +14,13 @@ struct Load {
   base::Field room;              ///< largest mixing length between them over kappa [m], in cells; 0: no bound
 };
 
+/// Where the laminar boundary layer of the pipe begins and leaves it [rad].
+struct Separation {
+  static constexpr double never = 3.141592653589793;
+  double stagnation = 0;                ///< from the foremost point, upwards
+  double above = never, below = never;  ///< from the stagnation point, over the top and under the bottom
+};
+
 /// Everything that changes with time.  k, epsilon and nut live half a step ahead of the velocity: each is then centred
 /// in the step of the other.  All fields have mesh.nx x mesh.ny cells and two ghosts; u(nx,j) and v(i,ny) are
 /// the outlet and top faces.
@@ -29,6 +36,7 @@ struct State {
   base::Field convection_u, convection_v;  ///< rates of change by convection in the last step [m/s2]
   base::Field convection_k, convection_e;  ///< of k and the second quantity of the closure [m2/s3], [its unit/s]
   base::Field voidage;                     ///< share of the cells that holds water [-]; empty: all of it
+  Separation separation;                   ///< of the pipe, where its layer is laminar
   double step = 0;                         ///< last time step [s]
   double time = 0;                         ///< [s] since the spin-up began
   Load load;

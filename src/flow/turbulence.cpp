@@ -39,6 +39,16 @@ Field distance_from_walls(const Mesh& m, const Boundary& b) {
   return distance;
 }
 
+/// 1 where eddies may be, 0 inside the pipe and where the layers that leave it are still laminar.
+Field eddying_cells(const Mesh& m) {
+  Field eddying(m.nx, m.ny, 2, 1.0);
+  const double laminar = m.pipe.layer == PipeLayer::laminar ? transition_distance * m.pipe.diameter : 0.0;
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i)
+      if (m.volume(i, j) <= 0 || (m.has_pipe() && m.wall_distance(i, j) < laminar)) eddying(i, j) = 0;
+  return eddying;
+}
+
 }  // namespace
 
 Turbulence::Turbulence(const Mesh& m, const Boundary& b, const Params& params) : law_(closure_law(params)) {
@@ -46,7 +56,7 @@ Turbulence::Turbulence(const Mesh& m, const Boundary& b, const Params& params) :
   const Field f(m.nx, m.ny);
   strain_ = nut_ = f;
   if (with_omega()) omega_ = omega_old_ = cross_ = blend_ = f;
-  open_x_ = SharedRows(m.aperture_x), open_y_ = SharedRows(m.aperture_y), volume_ = SharedRows(m.volume);
+  open_x_ = SharedRows(m.aperture_x), open_y_ = SharedRows(m.aperture_y), eddying_ = SharedRows(eddying_cells(m));
   distance_ = distance_from_walls(m, b);
   set_inlet(b);
 
@@ -160,7 +170,7 @@ void Turbulence::prepare(const Mesh& m, const Boundary& b, const Params& params,
           const double *per_dx = w.per_dx.data() + 2, *per_hx = w.per_dx_face.data() + 2;
           const double per_dy = 1.0 / m.dy(j), per_below = 1.0 / m.dy_face(j), per_above = 1.0 / m.dy_face(j + 1);
           const double *k = s.k.row(j), *ko = s.k_old.row(j), *e = second_now.row(j), *eo = second_before.row(j);
-          const double *volume = volume_.row(j), *y = distance_.row(j);
+          const double *eddying = eddying_.row(j), *y = distance_.row(j);
           double *strain = strain_.row(j), *nut = nut_.row(j);
           vector_loop(0, m.nx, [&](int i) {
             const double dudx = (u[i + 1] - u[i]) * per_dx[i], dvdy = (va[i] - v[i]) * per_dy;
@@ -170,7 +180,7 @@ void Turbulence::prepare(const Mesh& m, const Boundary& b, const Params& params,
                 0.25 * ((v[i + 1] + va[i + 1] - vc) * per_hx[i + 1] + (vc - v[i - 1] - va[i - 1]) * per_hx[i]);
             strain[i] = strain_squared(dudx, dvdy, dudy + dvdx);
             const double kc = centred(k[i], ko[i], ahead), ec = centred(e[i], eo[i], ahead);
-            nut[i] = volume[i] > 0 ? std::min(law.eddy_viscosity(kc, ec, strain[i], y[i], nu), most) : 0.0;
+            nut[i] = eddying[i] > 0 ? std::min(law.eddy_viscosity(kc, ec, strain[i], y[i], nu), most) : 0.0;
           });
         });
       },
@@ -295,7 +305,7 @@ void Turbulence::fill_exchange_y(const Mesh& m, const Params& params, const Stag
 
 void Turbulence::store(const Params& params, int j, int ia, int ib, const double* k, const double* e, double* to_k,
                        double* to_epsilon, double* to_nut) const {
-  const double *volume = volume_.row(j), *strain = strain_.row(j), *y = distance_.row(j);
+  const double *eddying = eddying_.row(j), *strain = strain_.row(j), *y = distance_.row(j);
   const double nu = params.viscosity, most = nut_over_nu_most * nu;
   std::visit(
       [&](const auto& law) {
@@ -306,7 +316,7 @@ void Turbulence::store(const Params& params, int j, int ia, int ib, const double
           to_epsilon[i] = std::decay_t<decltype(law)>::transports_omega
                               ? std::max(launder_spalding.c_mu * ki * ei, epsilon_floor)
                               : ei;
-          to_nut[i] = volume[i] > 0 ? nut : 0.0;
+          to_nut[i] = eddying[i] > 0 ? nut : 0.0;
         });
       },
       law_);

@@ -91,7 +91,7 @@ private:
   FixedCells fixed_k_, fixed_e_;
   base::SharedRows factor_k_, factor_e_;
   std::vector<double> inlet_k_, inlet_e_;
-  base::SharedRows open_x_, open_y_, volume_;
+  base::SharedRows open_x_, open_y_, eddying_;
   base::Field distance_;                           ///< of cells from the nearest wall [m]
   base::Field strain_;                             ///< S^2 [1/s2]
   base::Field nut_;                                ///< centred in the step to come [m2/s]

@@ -33,11 +33,9 @@ std::uint64_t hash_of(std::string_view bytes) {
   return h;
 }
 
-/// Another build may round differently or pack otherwise, whatever its version says: the program's own bytes tell.
-const std::string& this_program() {
-  static const std::string name = fmt::format("{} {} {} {:016x}", base::version(), base::commit(), base::compiler(),
-                                              hash_of(io::read_file("/proc/self/exe")));
-  return name;
+/// Another build may round differently or pack otherwise, whatever its version says.
+std::string this_build() {
+  return fmt::format("{} {} {} {}", base::version(), base::compiler(), base::instruction_set(), base::packing_code());
 }
 
 /// Can a key change the packing?  Better a bed too many than a wrong one: all count but those known not to.
@@ -63,7 +61,7 @@ std::uintmax_t size_of(const grains::Bed& bed) {
 }  // namespace
 
 std::string packing_key(const casefile::Case& c) {
-  std::string key = fmt::format("program = {}\nkernels = {}\n", this_program(), grains::kernels().name);
+  std::string key = fmt::format("build = {}\nkernels = {}\n", this_build(), grains::kernels().name);
   for (const casefile::Row& row : casefile::schema()) {
     if (decides_packing(row.name)) key += fmt::format("{} = {}\n", row.name, casefile::written(row.get(c)));
   }

@@ -16,7 +16,7 @@ namespace livebed::run {
 
 namespace {
 
-constexpr std::int64_t format_version = 6;
+constexpr std::int64_t format_version = 7;
 
 /// Calls visit(name, field) for every field of the flow that the next step reads.
 template <class FlowState, class Visit>
@@ -42,6 +42,11 @@ void pass_scalars(GroupLike& g, ClockLike& clock, WallLike& wall, ProgressLike& 
   pass(g, "original_level", p.original.level), pass(g, "original_packed", p.original.packed);
   pass(g, "theta_sum", p.theta_sum), pass(g, "theta_time", p.theta_time), pass(g, "largest_overlap", p.largest_overlap);
   pass(g, "asleep_sum", p.asleep_sum), pass(g, "start_wall", p.start_wall);
+}
+
+template <class GroupLike, class SeparationLike>
+void pass_separation(GroupLike& g, SeparationLike& s) {
+  pass(g, "stagnation", s.stagnation), pass(g, "separation_above", s.above), pass(g, "separation_below", s.below);
 }
 
 /// Outputs that only some cases ask for: without them a checkpoint holds nothing of them.
@@ -78,6 +83,7 @@ void save_checkpoint(const std::filesystem::path& file, Simulation& sim, const P
       if (f.nx() > 0) flow.write(name, f);
     });
     pass(flow, "step", s.step), pass(flow, "time", s.time), pass(flow, "load_top", s.load.top);
+    pass_separation(flow, s.separation);
     pass(flow, "has_voids", s.voidage.nx() > 0);
     const flow::Boundary& sides = solver.boundary();
     flow.write("inlet_u", sides.inlet_u), flow.write("inlet_k", sides.inlet_k);
@@ -136,6 +142,7 @@ Restored load_checkpoint(const std::filesystem::path& file) {
       if (f.nx() > 0) flow.read(name, f);
     });
     pass(flow, "step", s.step), pass(flow, "time", s.time), pass(flow, "load_top", s.load.top);
+    pass_separation(flow, s.separation);
     if (voids) solver.set_voidage(base::Field(s.voidage), 0);
     const io::Group exchange = root.open("exchange");
     coupling::Coupler::each_part(coupler, [&](const char* name, auto& part) { exchange.read(name, part); });

@@ -236,6 +236,31 @@ Result oner_depth(const Tell& tell) {
   return result;
 }
 
+Result oner_layer(const Tell& tell) {
+  Result result;
+  Runs runs(tell);
+  std::vector<ShearPanel> shear;
+  std::vector<Drawn> spectra;
+  for (const double depth : {box_depth, experiment_depth})
+    for (const auto& gap : gaps) {
+      if (depth == experiment_depth && gap.first != 0.3 && gap.first != 1.0) continue;
+      std::vector<Drawn> both;
+      for (const flow::PipeLayer layer : {flow::PipeLayer::turbulent, flow::PipeLayer::laminar}) {
+        PipeSetup s = setup(Closure::k_epsilon_realizable, gap.first, depth);
+        s.layer = layer;
+        const bool laminar = layer == flow::PipeLayer::laminar;
+        const std::string name = laminar ? "laminar layer" : "turbulent layer";
+        add_rows(fmt::format("{}, e/D {}, {} D deep", name, gap.first, depth), s, runs(s), tell, result);
+        both.push_back({name, laminar ? "#d62728" : "#2ca02c", &runs(s), gap.first});
+      }
+      if (depth == box_depth) shear.push_back({fmt::format("e/D {}", gap.first), both});
+      if (depth == box_depth && gap.first == 1.0) spectra = both;
+    }
+  result.pictures = {{"oner_layer_7_bed_shear.svg", figure_bed_shear(shear)},
+                     {"oner_layer_8_spectra_e1.svg", figure_spectra(spectra)}};
+  return result;
+}
+
 Result oner_fine(const Tell& tell) { return fine_grid({models[0]}, {0.3}, "oner_fine", tell); }
 
 Result oner_fine_bed(const Tell& tell) { return fine_grid({models[0]}, {0.0}, "oner_fine_bed", tell); }

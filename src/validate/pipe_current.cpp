@@ -59,6 +59,7 @@ flow::Params params(const PipeSetup& c) {
   p.pipe.diameter = D;
   p.pipe.x = pipe_from_inlet * D, p.pipe.y = (c.gap_ratio + 0.5) * D;
   p.pipe.gap_ratio = c.gap_ratio;
+  p.pipe.layer = c.layer;
   p.current.profile = c.profile;
   p.current.mean_speed = U0;
   p.current.shear_velocity = flow::shear_velocity_from_mean(
@@ -128,6 +129,7 @@ std::string PipeSetup::name() const {
   if (profile == flow::Profile::uniform) text += "-uniform";
   if (profile_depth > 0) text += fmt::format("-profile{}", profile_depth);
   if (convection == flow::Convection::hybrid) text += "-hybrid";
+  if (layer == flow::PipeLayer::laminar) text += "-laminar-layer";
   if (record != PipeSetup{}.record) text += fmt::format("-record{}", record);
   return text;
 }
@@ -135,12 +137,13 @@ std::string PipeSetup::name() const {
 std::string PipeSetup::text() const {
   return fmt::format(
       "pipe 10 D from the inlet, e/D {}, Re_D {}, box {} D x {} D, {} x {} cells over the lowest 3.5 D{}, {}, {} inlet "
-      "of mean speed U0 over {} D, smooth floor and pipe, symmetry lid, {} convection, Courant {}, {} D/U0 before "
+      "of mean speed U0 over {} D, smooth floor and pipe, {} layer on the pipe, symmetry lid, {} convection, Courant "
+      "{}, {} D/U0 before "
       "the record of {} D/U0{}",
       gap_ratio, reynolds_D, box_length, depth, nx, ny, depth > box_depth ? ", growing by 1.05 above" : "",
       name_of(closure), profile == flow::Profile::uniform ? "uniform" : "smooth log-law",
-      profile_depth > 0 ? profile_depth : depth, convection == flow::Convection::hybrid ? "hybrid" : "bounded", courant,
-      spin_up, record,
+      profile_depth > 0 ? profile_depth : depth, layer == flow::PipeLayer::laminar ? "laminar" : "turbulent",
+      convection == flow::Convection::hybrid ? "hybrid" : "bounded", courant, spin_up, record,
       nx > work_nx ? fmt::format(" (spin-up on {} x {}, then {} D/U0 on the grid itself)", work_nx, work_ny, settle)
                    : "");
 }

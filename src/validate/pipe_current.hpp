@@ -27,6 +27,7 @@ struct PipeSetup {
   double depth = box_depth;        ///< of the water [D]
   int nx = work_nx, ny = work_ny;  ///< equal cells over 30 D x 3.5 D; growing by 1.05 above
   flow::Profile profile = flow::Profile::smooth;
+  flow::PipeLayer layer = flow::PipeLayer::turbulent;
   double profile_depth = 0;  ///< over which the inlet's mean is U0 [D]; 0 = the whole depth
   flow::Convection convection = flow::Convection::bounded;
   double spin_up = 60, record = 130;  ///< [D/U0]; a finer grid than the usual one starts from a flow on that one

@@ -46,6 +46,7 @@ const std::vector<Case>& cases() {
       {"mao-1mm", "the same with grains of 1 mm on a deep bed, time scaled", mao_1mm},
       {"mao-2mm", "the same with the paper's grains of 2 mm, time scaled: Figures 11 and 12", mao_paper},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},
+      {"oner-layer", "a laminar boundary layer on the pipe beside a turbulent one", oner_layer},
       {"oner-depth", "what sets its Strouhal number: depth, approach profile, scheme, grid", oner_depth},
       {"oner-fine", "the same on the paper's 1500 x 260 cells: k-epsilon, e/D 0.3", oner_fine},
       {"oner-fine-bed", "the same, e/D 0", oner_fine_bed},
