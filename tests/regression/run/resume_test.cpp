@@ -33,7 +33,7 @@ TEST_F(Resume, from_many_stops_on_changing_threads_gives_the_unbroken_run) {
 }
 
 TEST_F(Resume, after_ctrl_c_gives_the_unbroken_run) {
-  const std::string preset = " --set preset=livebed";
+  const std::string preset = " --set preset=livebed --set pipe.boundary_layer=laminar";
   ASSERT_EQ(run("--threads 2 " + small_run("0.3", "whole" + preset)).exit, ok);
   ASSERT_EQ(run(one + small_run("0.3", "parts --wall-limit 1e-6" + preset)).exit, stopped_by_limit);
   const pid_t child = start({"--threads", "1", "resume", "parts", "--quiet"});
