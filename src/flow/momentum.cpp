@@ -1,5 +1,6 @@
 #include "flow/momentum.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/loops.hpp"

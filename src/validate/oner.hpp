@@ -12,7 +12,8 @@ Result oner(const Tell& tell);
 /// What sets the Strouhal number: the depth of the experiment, 12 D, and single changes of profile, scheme and grid.
 Result oner_depth(const Tell& tell);
 
-/// A laminar boundary layer on the pipe beside the wall function's turbulent one: every gap, and the experiment's depth.
+/// A laminar boundary layer on the pipe beside the wall function's turbulent one: every gap, and the experiment's
+/// depth.
 Result oner_layer(const Tell& tell);
 
 /// The paper's grid, 1500 x 260, beside the usual one: the paper's closure at e/D 0.3, at 0, and the other closures at
