@@ -58,9 +58,9 @@ void add_coupling(std::vector<Row>& s) {
   s.push_back(real("coupling.turbulence_inertia", "-", coupling(&C::turbulence_inertia))
                   .within(0, 10)
                   .says("B of the share exp(-B St) of an eddy's motion that a grain follows"));
-  s.push_back(real("coupling.room_scale", "-", coupling(&C::room_scale))
-                  .above(0, 10)
-                  .says("largest mixing length among grains over kappa times that distance"));
+  s.push_back(real("coupling.room_power", "-", coupling(&C::room_power))
+                  .within(0, 10)
+                  .says("n of (1 - solid/packed)^n, by which a way through grains counts in that distance"));
   s.push_back(word<coupling::Dispersion>(
                   "coupling.dispersion", coupling(&C::dispersion),
                   {{"none", coupling::Dispersion::none}, {"random_walk", coupling::Dispersion::random_walk}})

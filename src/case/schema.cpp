@@ -67,7 +67,8 @@ const std::vector<Choice>& choices() {
                                         {"coupling.lift", "none", "saffman_mei"},
                                         {"coupling.turbulence", "untouched", "bounded"},
                                         {"coupling.dispersion", "none", "random_walk"},
-                                        {"coupling.dispersion_energy", "1", "2.2"},
+                                        {"coupling.room_power", "1", "3"},
+                                        {"coupling.dispersion_energy", "1", "1.8"},
                                         {"coupling.kernel", "2", "0.6"}};
   return rows;
 }

@@ -334,30 +334,50 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   });
 }
 
+void Coupler::average_solid(const flow::Mesh& m, Field& solid) {
+  const double reach = averaged_over * slab_;
+  for_each_item(0, top_, [&](int j) {
+    double* mean = solid.row(j);
+    double volume = 0, length = 0;
+    for (int i = 0, first = 0, next = 0; i < nx_; ++i) {
+      const double here = m.centre_x(i);
+      for (; next <= i || (next < nx_ && m.centre_x(next) <= here + reach); ++next)
+        volume += (1.0 - voids_(next, j)) * m.dx(next), length += m.dx(next);
+      for (; first < i && m.centre_x(first) < here - reach; ++first)
+        volume -= (1.0 - voids_(first, j)) * m.dx(first), length -= m.dx(first);
+      mean[i] = volume / length;
+    }
+  });
+}
+
 void Coupler::bound_eddies(const flow::Mesh& m, flow::Load& load) {
   // Shortest way through the cells, each step counting as much as it is free of grains: down to the packed bed from
   // the west and from below, then from the east and from above.
-  Field& way = slope_u_;
-  const double far = m.height();
-  const auto step = [&](double& here, int i, int j, int from_i, int from_j, double length) {
-    const double solid = 2.0 - voids_(i, j) - voids_(from_i, from_j);
-    here = std::min(here, way(from_i, from_j) + length * std::max(0.0, 1.0 - 0.5 * solid / packed_solid));
+  Field &way = slope_u_, &solid = slope_v_;
+  average_solid(m, solid);
+  const auto counts = [&](double share) {
+    if (share <= 0 || share >= 1) return share <= 0 ? 1.0 : 0.0;
+    return std::pow(1.0 - share, params_.room_power);
   };
-  for (int j = 0; j < load.top; ++j)
+  const auto step = [&](double& here, int i, int j, int from_i, int from_j, double length) {
+    const double mean = 0.5 * (solid(i, j) + solid(from_i, from_j));
+    here = std::min(here, way(from_i, from_j) + length * counts(mean / packed_solid));
+  };
+  const double far = m.height();
+  for (int j = 0; j < top_; ++j)
     for (int i = 0; i < nx_; ++i) {
-      double here = 1.0 - voids_(i, j) > packed_share * packed_solid ? 0.0 : far;
+      double here = solid(i, j) > packed_share * packed_solid ? 0.0 : far;
       if (j > 0) step(here, i, j, i, j - 1, m.dy_face(j));
       if (i > 0) step(here, i, j, i - 1, j, m.dx_face(i));
       way(i, j) = here;
     }
   const double least = room_least * slab_;
-  for (int j = load.top - 1; j >= 0; --j)
+  for (int j = top_ - 1; j >= 0; --j)
     for (int i = nx_ - 1; i >= 0; --i) {
       double& here = way(i, j);
-      if (j + 1 < load.top) step(here, i, j, i, j + 1, m.dy_face(j + 1));
+      if (j + 1 < top_) step(here, i, j, i, j + 1, m.dy_face(j + 1));
       if (i + 1 < nx_) step(here, i, j, i + 1, j, m.dx_face(i + 1));
-      const bool among = 1.0 - voids_(i, j) > solid_least;
-      load.room(i, j) = among ? std::max(params_.room_scale * here, least) : 0.0;
+      load.room(i, j) = std::max(here, least);
     }
 }
 

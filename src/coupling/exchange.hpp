@@ -28,8 +28,10 @@ inline constexpr double packed_solid = 0.55, packed_share = 0.9;
 inline constexpr double sliver = 0.05;
 /// The water around grains that are still is looked at every so many steps of the flow.
 inline constexpr int steps_a_round = 64;
-inline constexpr double solid_least = 1e-3;  ///< fewer grains leave the eddies alone [-]
-inline constexpr double room_least = 0.02;   ///< of the packed bed over d; keeps its dissipation finite
+/// Half the length along the current over which the solid fraction that bounds the eddies is averaged, over d [-].  A
+/// grain that flies alone fills its cell and would count as a bed.
+inline constexpr double averaged_over = 3;
+inline constexpr double room_least = 0.02;  ///< of the packed bed over d; keeps its dissipation finite
 
 /// Sums of all impulses since the release [N s]; in the slab of thickness b.  The force of the pressure gradient is not
 /// among them: the water's own equation holds its counterpart.
@@ -127,8 +129,11 @@ private:
   double given_to_still(const base::Field& beta, const base::Field& velocity, double dt) const;
   /// Velocity of the water and fluctuation at each grain.
   void feel_eddies(grains::State& g, const flow::Solver& flow, double dt);
-  /// load.room <- distance of each cell with grains from the packed bed, ways through grains counting less by what
-  /// they fill (Li and Sawamoto 1995, Coastal Eng. Japan 38, 1: dl/dy = kappa (1 - solid/packed)).
+  /// solid <- solid fraction of each cell up to the topmost grain, averaged along the current [-].
+  void average_solid(const flow::Mesh& m, base::Field& solid);
+  /// load.room <- distance of each cell up to the topmost grain from the packed bed, ways through grains counting less
+  /// by what they fill (Li and Sawamoto 1995, Coastal Eng. Japan 38, 1: dl/dy = kappa (1 - solid/packed), here to a
+  /// power).
   void bound_eddies(const flow::Mesh& m, flow::Load& load);
   void load_eddies(const grains::State& g, flow::Load& load);
   /// Velocity of the water at each grain, and its forces besides drag.

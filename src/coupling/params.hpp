@@ -48,7 +48,7 @@ struct Params {
   Lift lift = Lift::none;
   Turbulence turbulence = Turbulence::untouched;
   double turbulence_inertia = 0.25;  ///< B of the share exp(-B St) of an eddy's motion that a grain follows [-]
-  double room_scale = 0.5;           ///< largest mixing length among grains over kappa x that distance [-]
+  double room_power = 1;             ///< of the share free of grains by which a way counts in that distance [-]
   Dispersion dispersion = Dispersion::none;
   double dispersion_energy = 1;  ///< energy of the eddies that grains feel over the modelled k [-]
   double dispersion_time = 0.2;  ///< Lagrangian time scale over k/epsilon [-]

@@ -1,6 +1,7 @@
 #include "coupling/exchange.hpp"
 
 #include <gtest/gtest.h>
+#include <numeric>
 
 #include "base/math.hpp"
 
@@ -197,6 +198,48 @@ TEST(coupler, finds_the_solid_volume_of_the_grains_in_the_cells) {
   pair.coupler.solid_fraction(pair.g, fraction);
   const double volume = base::sphere_volume(d) + base::sphere_volume(1.1 * d);
   EXPECT_NEAR(pair.total(fraction, flow::Staggering::centres(pair.solver.mesh())), volume, 1e-13 * volume);
+}
+
+/// Two rows of grains, one a cell, on the floor, and one grain alone above them.
+struct BedAndFlyer : Pair {
+  static Params bounded() {
+    Params p;
+    p.voidage = Voidage::on, p.turbulence = Turbulence::bounded, p.kernel = 0.6, p.room_power = 3;
+    return p;
+  }
+  BedAndFlyer() : Pair(bounded()) {
+    g.x = {0.031}, g.y = {0.021};
+    for (int n = 0; n < 60; ++n) g.x.push_back((n % 30 + 0.5) * d), g.y.push_back((n / 30 + 0.5) * d);
+    for (grains::Array* a :
+         {&g.u, &g.v, &g.fluid.u, &g.fluid.v, &g.fluid.beta, &g.fluid.fx, &g.fluid.fy, &g.impulse_x, &g.impulse_y})
+      a->assign(g.x.size(), 0.0);
+    g.diameter.assign(g.x.size(), d);
+    g.id.resize(g.x.size());
+    std::iota(g.id.begin(), g.id.end(), 0);
+  }
+};
+
+TEST(eddies_among_grains, are_no_larger_than_their_distance_from_the_bed) {
+  BedAndFlyer at;
+  Coupler coupler(BedAndFlyer::bounded(), at.solver, {d, 2650, 0.5, nu, 61, 1});
+  coupler.load_flow(at.g, at.solver, 1e-3, false);
+  const base::Field& room = at.load().room;
+  EXPECT_LT(room(5, 0), 0.05 * d);
+  for (int j = 4; j <= 8; ++j) {
+    // The surface is where half of the grains' kernel ends, on top of the second row.
+    const flow::Mesh& m = at.solver.mesh();
+    EXPECT_NEAR(room(5, j), m.centre_y(j) - 2 * d, 0.6 * d) << j;
+    EXPECT_NEAR(room(5, j) - room(5, j - 1), m.dy_face(j), 1e-9 * d) << j;
+  }
+}
+
+TEST(eddies_among_grains, pass_a_grain_that_flies_alone) {
+  // It fills the cell it is in more than a packed bed does.
+  BedAndFlyer at;
+  Coupler coupler(BedAndFlyer::bounded(), at.solver, {d, 2650, 0.5, nu, 61, 1});
+  coupler.load_flow(at.g, at.solver, 1e-3, false);
+  const base::Field& room = at.load().room;
+  EXPECT_GT(room(15, 10), 0.9 * room(5, 10));
 }
 
 }  // namespace
