@@ -10,6 +10,7 @@
 #include "base/sediment.hpp"
 #include "base/version.hpp"
 #include "case/read.hpp"
+#include "case/resolved.hpp"
 #include "grains/measures.hpp"
 #include "io/file.hpp"
 #include "run/shear.hpp"
@@ -106,7 +107,8 @@ private:
 }  // namespace
 
 std::string FlatBedSetup::name() const {
-  std::size_t others = std::hash<std::string>{}(text());
+  // The case as resolved: a preset whose constants have changed makes another run.
+  std::size_t others = std::hash<std::string>{}(text() + casefile::hash(case_of(*this)));
   return fmt::format("d{:.3g}mm-theta{:.3g}-seed{}-{:08x}", 1e3 * diameter, theta, seed, others & 0xffffffff);
 }
 
