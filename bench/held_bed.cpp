@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/fault.hpp"
+#include "base/math.hpp"
 #include "base/sediment.hpp"
 #include "case/read.hpp"
 #include "flow/constants.hpp"
@@ -28,6 +29,7 @@ using namespace livebed;
 constexpr double at_rest = 0.05;
 /// A bed of another shape is the lower part of the run's, up to this share of its thickness, and once more on top.
 constexpr double lower_part = 0.6;
+constexpr double between = 0.6;   ///< room left below the sand on top [d], or its grains would overlap those below
 constexpr double look_at = 0.01;  ///< height above the bed where the water is looked at [m]
 
 /// Puts grains out of the way: thinly below the lid.
@@ -87,14 +89,14 @@ double height(const Line& line, const casefile::Case& c, double x) {
 /// Sand of the run in a bed with this surface.
 grains::Bed shape(grains::Bed bed, const casefile::Case& c, const Line& line) {
   grains::State& s = bed.state;
-  const double part = lower_part * c.bed_thickness;
+  const double part = lower_part * c.bed_thickness, up = part + between * c.grains.diameter;
   std::vector<std::pair<double, double>> places;
   std::vector<int> taken;
   for (int i = 0; i < s.count(); ++i) {
     if (s.y[i] >= part)
       taken.push_back(i);
-    else if (s.y[i] + part < height(line, c, s.x[i]))
-      places.emplace_back(s.x[i], s.y[i] + part);
+    else if (s.y[i] + up < height(line, c, s.x[i]))
+      places.emplace_back(s.x[i], s.y[i] + up);
     s.u[i] = s.v[i] = 0;
   }
   if (places.size() > taken.size())
@@ -158,9 +160,37 @@ private:
   std::vector<double> share_, bed_, u_, uu_, k_, phi_;
 };
 
+/// Lets the sand go and tells every 0.1 s where it is: its area in strips of 0.1 D, grains above `lid` left out.
+void let_go(run::Simulation& sim, const casefile::Case& c, double seconds, const std::string& path) {
+  const double D = c.flow.pipe.diameter, strip = 0.1 * D, lid = c.bed_thickness + 2.5 * D;
+  const int strips = static_cast<int>(c.flow.mesh.length / strip);
+  std::string text = "time_s";
+  for (int n = 0; n < strips; ++n) text += fmt::format(",{:.4g}", ((n + 0.5) * strip - c.flow.pipe.x) / D);
+  text += '\n';
+  sim.release();
+  const double start = sim.flow().state.time;
+  for (double next = 0, time = 0;; time = sim.flow().state.time - start) {
+    if (time >= next) {
+      std::vector<double> area(strips, 0.0);
+      const grains::State& g = sim.bed().state;
+      for (int i = 0; i < g.count(); ++i)
+        if (g.y[i] < lid)
+          area[std::clamp(static_cast<int>(g.x[i] / strip), 0, strips - 1)] +=
+              base::sphere_volume(g.diameter[i]) / c.grains.diameter;
+      text += fmt::format("{:.4f}", time);
+      for (double a : area) text += fmt::format(",{:.6g}", a);
+      text += '\n';
+      next += 0.1;
+      io::write_atomically(path, text);
+    }
+    if (time >= seconds) return;
+    sim.step();
+  }
+}
+
 struct Wish {
-  std::string run, line, along;
-  double line_time = 11, seconds = 2, every = 0.005;
+  std::string run, line, along, sand;
+  double line_time = 11, seconds = 2, free = 1, every = 0.005;
   std::vector<std::string> overrides;
 };
 
@@ -186,6 +216,7 @@ void go(const Wish& wish) {
     next += wish.every;
   }
   if (!wish.along.empty()) along.write(wish.along);
+  if (!wish.sand.empty()) let_go(sim, c, wish.free, wish.sand);
 }
 
 }  // namespace
@@ -197,6 +228,8 @@ int main(int argc, char** argv) {
   auto* line = app.add_option("--line", wish.line, "its sand in a bed of this shape: a table with t_s, x_D, y_bed_D");
   app.add_option("--line-time", wish.line_time, "whose line of the table [s]")->capture_default_str()->needs(line);
   app.add_option("--along", wish.along, "file for what the water does 1 cm above that shape, as CSV")->needs(line);
+  auto* sand = app.add_option("--sand", wish.sand, "then let the sand go: file for where it is, as CSV")->needs(line);
+  app.add_option("--free", wish.free, "how long it is free [s]")->capture_default_str()->needs(sand);
   app.add_option("--seconds", wish.seconds, "how long")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--every", wish.every, "[s] between two lines")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--set", wish.overrides,
