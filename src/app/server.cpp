@@ -140,7 +140,9 @@ public:
     http_.set_idle_interval(1);
     if (!options_.ready(fmt::format("http://127.0.0.1:{}/", port_))) return;
     asked_ = Clock::now();
-    if (!http_.listen_after_bind()) fail(Exit::input_output, "the server on port {} has failed", port_);
+    if (!http_.listen_after_bind())
+      fail(Exit::input_output, "the page can no longer be served on port {}; begin again with: livebed watch DIR",
+           port_);
   }
 
 private:

@@ -1,7 +1,9 @@
 #include "grains/contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "base/loops.hpp"
 #include "grains/kernels.hpp"
@@ -45,10 +47,17 @@ void fill_slice(const State& s, int slice, std::int64_t steps, Records& r) {
   }
 }
 
-void list_awake(Records& r) {
-  r.awake.clear();
+void list_awake(Records& r, const Contacts& c, double length) {
+  const auto slab_of = [&](std::size_t slice) {
+    return std::clamp(static_cast<int>(slabs * c.x_built[slice * lanes] / length), 0, slabs - 1);
+  };
+  std::array<std::int32_t, slabs + 1> end{};  // of each slab the next place
   for (std::size_t slice = 0; slice < r.asleep.size(); ++slice)
-    if (r.asleep[slice] == 0) r.awake.push_back(static_cast<std::int32_t>(slice));
+    if (r.asleep[slice] == 0) ++end[slab_of(slice) + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  r.awake.resize(end[slabs]);
+  for (std::size_t slice = 0; slice < r.asleep.size(); ++slice)
+    if (r.asleep[slice] == 0) r.awake[end[slab_of(slice)]++] = static_cast<std::int32_t>(slice);
   r.moved.assign((r.awake.size() + slices_per_block - 1) / slices_per_block, 0);
   r.border_known = false;
 }
@@ -78,9 +87,11 @@ void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records
 bool sweep(const Sweep& k, Contacts& c, Records& r) {
   const int slices = static_cast<int>(r.awake.size()), blocks = static_cast<int>(r.moved.size());
   const auto step_slices = kernels().step_slices;
+  std::fill(r.moved.begin(), r.moved.end(), 0);
   base::for_each_item(0, blocks, [&](int block) {
     const int begin = block * slices_per_block;
-    r.moved[block] = step_slices(k, c, r, begin, std::min(slices, begin + slices_per_block));
+    // Written in the rare case only: two threads that write to one line of the cache wait for each other.
+    if (step_slices(k, c, r, begin, std::min(slices, begin + slices_per_block))) r.moved[block] = 1;
   });
   swap(r.place, r.place_next);
   swap(r.motion, r.motion_next);

@@ -38,7 +38,7 @@ struct Records {
   base::Lease<Own> own;
   base::Lease<std::int64_t> filled_at;   ///< of each slice: steps of the bed when it was filled
   std::vector<std::uint8_t> asleep;      ///< of each slice: it is passed over
-  std::vector<std::int32_t> awake;       ///< slices that are not, in order
+  std::vector<std::int32_t> awake;       ///< slices that are not, slab by slab along x
   std::vector<std::int32_t> border;      ///< those asleep with a neighbour awake, in order; see border_known
   bool border_known = false;             ///< neither slices nor neighbours have changed since it was found
   std::vector<std::uint8_t> turn;        ///< of each slice: it wakes or falls asleep
@@ -53,6 +53,9 @@ struct Records {
 };
 
 inline constexpr int slices_per_block = 8;  ///< what one thread takes at a time
+/// Slices awake are stepped slab by slab: the shares of two threads then meet along a short line down through the bed,
+/// not along a layer of it, and few grains have a neighbour whose record is in the other core's cache.
+inline constexpr int slabs = 32;
 
 /// The constants of a step.
 struct Sweep {
@@ -74,7 +77,7 @@ struct Sweep {
 Sweep make_sweep(const Params& p, const Circle& pipe, int count);
 
 /// Who is awake, by what is known of who sleeps.
-void list_awake(Records& r);
+void list_awake(Records& r, const Contacts& c, double length);
 
 /// Fills the records from the state, those of sleeping slices once for each new lists, and clears the pipe's impulse.
 /// steps: of the bed so far.

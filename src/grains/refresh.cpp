@@ -65,6 +65,7 @@ void find_moved(const Sweep& k, const State& s, const Contacts& c, const Records
       }
     }
   }
+  std::sort(moved.begin(), moved.end());
 }
 
 /// Makes room for `more` slots.
