@@ -12,6 +12,7 @@
 #include "base/sediment.hpp"
 #include "case/read.hpp"
 #include "flow/constants.hpp"
+#include "grains/ends.hpp"
 #include "io/file.hpp"
 #include "io/table.hpp"
 #include "run/checkpoint.hpp"
@@ -25,37 +26,29 @@ namespace {
 
 using namespace livebed;
 
-/// Sand that moves faster is thought away [m/s]: it would stand in the water like posts.
+/// Sand that moves faster is taken away [m/s]: it would stand in the water like posts.
 constexpr double at_rest = 0.05;
 /// A bed of another shape is the lower part of the run's, up to this share of its thickness, and once more on top.
 constexpr double lower_part = 0.6;
 constexpr double between = 0.6;   ///< room left below the sand on top [d], or its grains would overlap those below
 constexpr double look_at = 0.01;  ///< height above the bed where the water is looked at [m]
 
-/// Puts grains out of the way: thinly below the lid.
-class Lid {
-public:
-  explicit Lid(const casefile::Case& c)
-      : length_(c.flow.mesh.length), d_(c.grains.diameter), x_(d_), y_(c.flow.mesh.height - d_) {}
-  void take(grains::State& s, int i) {
-    s.x[i] = x_, s.y[i] = y_;
-    x_ += 2 * d_;
-    if (x_ > length_ - d_) x_ = d_, y_ -= 2 * d_;
-  }
-
-private:
-  double length_, d_, x_, y_;
-};
-
-/// The bed at rest; what moved is out of the way.
-grains::Bed hold(grains::Bed bed, const casefile::Case& c) {
+/// The bed at rest, without the grains at these places of its storage.
+grains::Bed without(grains::Bed bed, const std::vector<int>& out) {
   grains::State& s = bed.state;
-  Lid lid(c);
-  for (int i = 0; i < s.count(); ++i) {
-    if (std::hypot(s.u[i], s.v[i]) > at_rest) lid.take(s, i);
-    s.u[i] = s.v[i] = 0;
-  }
+  std::fill(s.sleep.asleep.begin(), s.sleep.asleep.end(), 0);  // who sleeps cannot leave
+  for (grains::Array* motion : {&s.u, &s.v, &s.omega}) std::fill(motion->begin(), motion->end(), 0.0);
+  grains::exchange_grains(bed, out, {});
   return bed;
+}
+
+/// The bed at rest without what moved.
+grains::Bed hold(grains::Bed bed) {
+  const grains::State& s = bed.state;
+  std::vector<int> out;
+  for (int i = 0; i < s.count(); ++i)
+    if (std::hypot(s.u[i], s.v[i]) > at_rest) out.push_back(i);
+  return without(std::move(bed), out);
 }
 
 /// Height of a bed over its first level, both over D; zero outside of what is known.
@@ -97,19 +90,13 @@ grains::Bed shape(grains::Bed bed, const casefile::Case& c, const Line& line) {
       taken.push_back(i);
     else if (s.y[i] + up < height(line, c, s.x[i]))
       places.emplace_back(s.x[i], s.y[i] + up);
-    s.u[i] = s.v[i] = 0;
   }
   if (places.size() > taken.size())
     base::fail(base::Exit::invalid_case, "this bed takes {} grains above {} m, the run has {}; take one with more sand",
                places.size(), part, taken.size());
-  Lid lid(c);
-  for (std::size_t n = 0; n < taken.size(); ++n) {
-    if (n < places.size())
-      s.x[taken[n]] = places[n].first, s.y[taken[n]] = places[n].second;
-    else
-      lid.take(s, taken[n]);
-  }
-  return bed;
+  for (std::size_t n = 0; n < places.size(); ++n) s.x[taken[n]] = places[n].first, s.y[taken[n]] = places[n].second;
+  taken.erase(taken.begin(), taken.begin() + static_cast<std::ptrdiff_t>(places.size()));
+  return without(std::move(bed), taken);
 }
 
 /// Means over time along the bed, look_at above it.
@@ -160,9 +147,9 @@ private:
   std::vector<double> share_, bed_, u_, uu_, k_, phi_;
 };
 
-/// Lets the sand go and tells every 0.1 s where it is: its area in strips of 0.1 D, grains above `lid` left out.
+/// Lets the sand go and tells every 0.1 s where it is: its area in strips of 0.1 D.
 void let_go(run::Simulation& sim, const casefile::Case& c, double seconds, const std::string& path) {
-  const double D = c.flow.pipe.diameter, strip = 0.1 * D, lid = c.bed_thickness + 2.5 * D;
+  const double D = c.flow.pipe.diameter, strip = 0.1 * D;
   const int strips = static_cast<int>(c.flow.mesh.length / strip);
   std::string text = "time_s";
   for (int n = 0; n < strips; ++n) text += fmt::format(",{:.4g}", ((n + 0.5) * strip - c.flow.pipe.x) / D);
@@ -174,9 +161,8 @@ void let_go(run::Simulation& sim, const casefile::Case& c, double seconds, const
       std::vector<double> area(strips, 0.0);
       const grains::State& g = sim.bed().state;
       for (int i = 0; i < g.count(); ++i)
-        if (g.y[i] < lid)
-          area[std::clamp(static_cast<int>(g.x[i] / strip), 0, strips - 1)] +=
-              base::sphere_volume(g.diameter[i]) / c.grains.diameter;
+        area[std::clamp(static_cast<int>(g.x[i] / strip), 0, strips - 1)] +=
+            base::sphere_volume(g.diameter[i]) / c.grains.diameter;
       text += fmt::format("{:.4f}", time);
       for (double a : area) text += fmt::format(",{:.6g}", a);
       text += '\n';
@@ -201,7 +187,7 @@ void go(const Wish& wish) {
   const casefile::Case c = casefile::read_case(wish.run + "/case.resolved.toml", wish.overrides);
   const Line line = wish.line.empty() ? Line{} : read_line(wish.line, wish.line_time);
   const grains::Bed& bed = restored.sim.bed();
-  run::Simulation sim(c, wish.line.empty() ? hold(bed, c) : shape(bed, c, line));
+  run::Simulation sim(c, wish.line.empty() ? hold(bed) : shape(bed, c, line));
   Along along(line, c, sim.flow().mesh());
   const double start = sim.flow().state.time;
   std::puts("time_s,drag_N_m,lift_N_m");
