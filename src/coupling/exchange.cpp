@@ -367,16 +367,16 @@ void Coupler::bound_eddies(const flow::Mesh& m, flow::Load& load) {
   for (int j = 0; j < top_; ++j)
     for (int i = 0; i < nx_; ++i) {
       double here = solid(i, j) > packed_share * packed_solid ? 0.0 : far;
-      if (j > 0) step(here, i, j, i, j - 1, m.dy_face(j));
-      if (i > 0) step(here, i, j, i - 1, j, m.dx_face(i));
+      if (here > 0 && j > 0) step(here, i, j, i, j - 1, m.dy_face(j));
+      if (here > 0 && i > 0) step(here, i, j, i - 1, j, m.dx_face(i));
       way(i, j) = here;
     }
   const double least = room_least * slab_;
   for (int j = top_ - 1; j >= 0; --j)
     for (int i = nx_ - 1; i >= 0; --i) {
       double& here = way(i, j);
-      if (j + 1 < top_) step(here, i, j, i, j + 1, m.dy_face(j + 1));
-      if (i + 1 < nx_) step(here, i, j, i + 1, j, m.dx_face(i + 1));
+      if (here > 0 && j + 1 < top_) step(here, i, j, i, j + 1, m.dy_face(j + 1));
+      if (here > 0 && i + 1 < nx_) step(here, i, j, i + 1, j, m.dx_face(i + 1));
       load.room(i, j) = std::max(here, least);
     }
 }
