@@ -1,4 +1,6 @@
 #include <benchmark/benchmark.h>
+#include <map>
+#include <utility>
 
 #include "base/loops.hpp"
 #include "grains/kernels.hpp"
@@ -11,22 +13,26 @@ namespace {
 using namespace livebed;
 using namespace livebed::grains;
 
-/// A settled bed of 1560 grains, packed once.
-const Bed& short_bed() {
-  static const Bed bed = [] {
+/// A settled bed of 1560 grains, packed once for each law.
+const Bed& short_bed(Law law, double rolling_friction) {
+  static std::map<std::pair<Law, double>, Bed> beds;
+  const auto [place, is_new] = beds.try_emplace({law, rolling_friction});
+  if (is_new) {
     Params p;
+    p.law = law, p.rolling_friction = rolling_friction;
     p.stiffness = 5500;
     p.restitution = 0.3;
     p.count = 1560;
     p.length = 0.126;
-    return pack(p).bed;
-  }();
-  return bed;
+    place->second = pack(p).bed;
+  }
+  return place->second;
 }
 
 /// The short bed side by side until it holds `count` grains, at rest again.
-Bed bed_of(int count) {
-  Bed bed = side_by_side(short_bed(), std::max(1, count / short_bed().params.count));
+Bed bed_of(int count, Law law = Law::paper, double rolling_friction = 0) {
+  const Bed& part = short_bed(law, rolling_friction);
+  Bed bed = side_by_side(part, std::max(1, count / part.params.count));
   advance(bed, 2000);
   return bed;
 }
@@ -67,6 +73,20 @@ void kernels(benchmark::State& state) {
 BENCHMARK(kernels)
     ->ArgNames({"grains", "set"})
     ->ArgsProduct({{6240, 199680}, {0, 1, 2}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// The same with the other contact law and with rolling resistance: 0 the paper's, 1 Hooke's.
+void laws(benchmark::State& state) {
+  Bed bed = bed_of(static_cast<int>(state.range(0)), state.range(1) == 0 ? Law::paper : Law::hooke,
+                   state.range(2) == 0 ? 0.0 : 0.3);
+  const int steps = 50;
+  for ([[maybe_unused]] auto pass : state) advance(bed, steps);
+  report(state, bed, static_cast<double>(steps * state.iterations()));
+}
+BENCHMARK(laws)
+    ->ArgNames({"grains", "hooke", "rolling"})
+    ->ArgsProduct({{6240, 199680}, {0, 1}, {0, 1}})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
