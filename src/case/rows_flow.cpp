@@ -120,6 +120,10 @@ void add_flow(std::vector<Row>& s) {
                   .at_least(0)
                   .says("ks of a rough floor; 2.5 d when 0"));
   s.push_back(real("flow.courant", "-", flow(&F::courant)).above(0, 1).says("target of the adaptive flow step"));
+  s.push_back(real("flow.courant_y", "-", flow(&F::courant_y))
+                  .within(0, 2)
+                  .says("the same along y alone: what exceeds flow.courant is carried upwind and implicitly, so that "
+                        "few low cells do not hold up all others; 0: nothing is"));
   s.push_back(
       real("flow.max_step", "s", flow(&F::max_step)).above(0).says("longest flow step").from("Sec. 4.4: 0.04 s"));
   s.push_back(real("flow.pressure_tolerance", "-", flow(&F::pressure_tolerance))

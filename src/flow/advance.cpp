@@ -90,18 +90,22 @@ void Solver::start() {
 }
 
 double Solver::step_limit() const {
-  const double rate = params_.algorithm == Algorithm::simple ? 0.0 : passage_rate();
-  return rate > 0 ? std::min(params_.max_step, params_.courant / rate) : params_.max_step;
+  if (params_.algorithm == Algorithm::simple) return params_.max_step;
+  const double courant = params_.courant, relief = params_.courant_y > 0 ? courant / params_.courant_y : 0.0;
+  const double rate = relief > 0 ? passage_rate([&](double x, double y) { return std::max(x, y * relief); })
+                                 : passage_rate([](double x, double y) { return x + y; });
+  return rate > 0 ? std::min(params_.max_step, courant / rate) : params_.max_step;
 }
 
-double Solver::passage_rate() const {
+template <class Both>
+double Solver::passage_rate(Both&& both) const {
   const double* per_dx = work_.per_dx.data() + 2;
   return base::largest(0, mesh_.ny, partial_, 0.0, [&](int j) {
     const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1);
     const double per_dy = 1.0 / mesh_.dy(j);
     return base::vector_largest(0, mesh_.nx, 0.0, [&](int i) {
-      return std::max(std::abs(u[i]), std::abs(u[i + 1])) * per_dx[i] +
-             std::max(std::abs(v[i]), std::abs(va[i])) * per_dy;
+      return both(std::max(std::abs(u[i]), std::abs(u[i + 1])) * per_dx[i],
+                  std::max(std::abs(v[i]), std::abs(va[i])) * per_dy);
     });
   });
 }
@@ -183,7 +187,7 @@ SolveReport Solver::project(double dt, double tolerance, double relax, double& m
 }
 
 StepReport Solver::advance(double dt) {
-  const double courant = dt * passage_rate();
+  const double courant = dt * passage_rate([](double x, double y) { return x + y; });
   if (mesh_.has_pipe() && params_.pipe.layer == PipeLayer::laminar)
     follow_separation(mesh_, work_.wall_cells, params_, dt, state);
   StepReport report = params_.algorithm == Algorithm::simple ? advance_simple(dt) : advance_projection(dt);

@@ -40,8 +40,9 @@ public:
   /// New profiles of velocity, k and epsilon at the inlet, one value a row, from the next step on.
   void set_inlet(const Column& profiles);
 
-  /// Largest step that keeps the Courant number at params.courant [s], never above params.max_step; SIMPLE takes
-  /// max_step at any Courant number.
+  /// Largest step that keeps the Courant number at params.courant [s], or the larger of those along x and y at
+  /// params.courant and params.courant_y when the latter is given; never above params.max_step.  SIMPLE takes max_step
+  /// at any Courant number.
   double step_limit() const;
 
   /// One step of dt [s]:
@@ -78,8 +79,9 @@ public:
 
 private:
   void set_pressure_coefficients();
-  /// Largest |u|/dx + |v|/dy [1/s].
-  double passage_rate() const;
+  /// Largest of both(|u|/dx, |v|/dy) [1/s].
+  template <class Both>
+  double passage_rate(Both&& both) const;
   StepReport advance_projection(double dt);
   StepReport advance_simple(double dt);
   StepReport outer_iteration(double inverse_dt);

@@ -23,6 +23,7 @@ Workspace::Workspace(const Mesh& m)
       wall_v(share_wall(m, false)),
       wall_cells(find_wall_cells(m)),
       ones(m.nx, std::vector<char>(m.ny, 0), 1.0),
+      implicit_y(m),
       rows(m),
       columns(m),
       walls_u_(m.ny, 0),
@@ -136,7 +137,7 @@ MomentumRows<Scheme>::MomentumRows(const Mesh& mesh, const Boundary& boundary, c
       carrier_(mesh, carrier, scratch),
       convect_(w.face_x, w.face_y, carrier_,
                {c.at, c.value, c.before, c.convection, s.step > 0 ? 1.0 / s.step : 0.0, lead, false, s.nut,
-                params.viscosity},
+                params.viscosity, explicit_courant(params)},
                scratch),
       dt_(dt) {
   for (double*& row : scratch_rows_) row = scratch.take();
@@ -304,6 +305,7 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
     for (int r = 0; r < together; ++r) kx[r] = scratch.take(), slope[r] = scratch.take();
     const bool half = spreads_little(at, s.nut, params.viscosity, dt, ja, jb);
     const auto keep_y = [&](int j) {
+      w.implicit_y.keep(at, j, dt, rows.implicit_y(j));
       const double* exchange = rows.exchange_y(j);
       double* k = w.exchange_y.row(j);
       const double factor = half ? 0.5 * dt : 1.0;
@@ -334,7 +336,9 @@ void predict(const Mesh& m, const Boundary& b, const Params& params, double dt, 
       if (j + rows_ahead < at.j1) base::fetch_ahead(w.exchange_y.row(j + rows_ahead), ia, ib);
       return w.exchange_y.row(j);
     };
-    solve_columns(at, c.factor, w.change, ia, ib, exchange, d, slope);
+    with_implicit(w.implicit_y, at, ia, ib, [&](auto convection) {
+      solve_columns(at, c.factor, w.change, ia, ib, exchange, convection, d, slope);
+    });
     for (int j = at.j0; j < at.j1; ++j) {
       if (j + rows_ahead < at.j1) {
         base::fetch_ahead(c.value.row(j + rows_ahead), ia, ib);

@@ -25,6 +25,7 @@ struct Workspace {
   base::Field convection, convection_e;      ///< likewise
   base::Field change, change_e, exchange_y;  ///< right-hand side and vertical exchange of the line systems
   base::Field outflow, c_x, c_y, c_boundary;
+  ImplicitConvection implicit_y;  ///< of u, v, or k and epsilon
   RowScratch rows;
   ColumnScratch columns;
   explicit Workspace(const Mesh& mesh);
@@ -66,7 +67,8 @@ Component v_component(const Staggering& at_v, State& s, Workspace& w);
 template <class Scheme>
 class MomentumRows {
 public:
-  /// dt: the rows come times dt [s]; lead: the convective face values run half of it ahead [s], 0 for a balance.
+  /// dt: the rows come times dt [s]; lead: the convective face values run half of it ahead [s], 0 for a balance, which
+  /// leaves nothing to an implicit sweep.
   MomentumRows(const Mesh& mesh, const Boundary& boundary, const Params& params, const State& s, const Carrier& carrier,
                double dt, double lead, Workspace& w, const Component& c, RowScratch::Rows& scratch);
 
@@ -78,6 +80,7 @@ public:
   void next(double* d, double* kx);
   const double* convection(int j) const { return convection_[j % 4]; }
   const double* exchange_y(int j) const { return exchange_y_[j % 2]; }
+  const double* implicit_y(int j) const { return convect_.implicit_y(j); }
   const CarrierRows& carrier() const { return carrier_; }
 
 private:

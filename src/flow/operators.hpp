@@ -108,10 +108,15 @@ struct Carried {
   bool positive = false;          ///< only believed changes of it count (believed_change)
   const base::Field& nut;         ///< with nu: diffusivity at cell centres (hybrid scheme)
   double nu = 0;
+  double courant = std::numeric_limits<double>::infinity();  ///< of all directions, of what is carried explicitly [-]
 };
 
 /// Rate of change by convection, row after row upwards: - sum over faces of flux x face value, over the inertia [1/s].
 /// Rows of the carrier must reach two rows above the row in hand.
+///
+/// Where the flow along y passes more of a cell in a step than `courant` leaves it beside the flow along x, only that
+/// much of it goes through the scheme.  The rest is carried upwind, and the sweep down the columns makes that part
+/// implicit (Shchepetkin 2015, Ocean Modelling 91, 38): a few low cells need not hold up all others.
 template <class Scheme>
 class ConvectionRows {
 public:
@@ -119,6 +124,9 @@ public:
                  const Carried& carried, RowScratch::Rows& scratch)
       : face_x_(face_x), face_y_(face_y), carrier_(carrier), q_(carried) {
     for (double** row : {&west_, &south_, &north_, &across_x_, &across_y_below_, &across_y_}) *row = scratch.take();
+    if (!splits()) return;
+    for (double*& row : passed_x_) row = scratch.take();
+    for (double*& row : implicit_) row = scratch.take();
   }
 
   /// The row that comes next.
@@ -146,12 +154,25 @@ public:
     ++j_;
   }
 
+  /// What of the flow through the south faces of row j over their width is left to an implicit sweep [m/s], for the
+  /// rows between the one in hand and two above it; null: nothing.
+  const double* implicit_y(int j) const { return is_implicit_[j % 4] ? implicit_[j % 4] : nullptr; }
+
 private:
+  bool splits() const { return q_.dt > 0 && std::isfinite(q_.courant); }
+
   /// Half-step changes of the nodes of row j by all but the flow across x faces, and by all but that across y faces.
   void half_changes(int j, double* across_x, double* across_y) {
     const Staggering& at = q_.at;
     const int sx = at.shift_x, sy = at.shift_y;
     carrier_.reach(j + 1);
+    if (splits()) {
+      const double *ua = carrier_.u(j - sy) - sx, *ub = carrier_.u(j), *per_width = at.per_width.data() + 2, dt = q_.dt;
+      double* passed = passed_x_[(j + 2) % 2];
+      base::vector_loop(at.i0, at.i1, [&](int i) {
+        passed[i] = 0.25 * std::abs(ua[i] + ub[i] + ua[i + 1] + ub[i + 1]) * dt * per_width[i];
+      });
+    }
     if (q_.dt == 0) {
       base::vector_loop(at.i0 - 1, at.i1 + 1, [&](int i) { across_x[i] = across_y[i] = 0.0; });
       return;
@@ -219,26 +240,61 @@ private:
     const double *share_a = at.share_x_before.data() + 2, *share_b = at.share_x.data() + 2;
     const double h = at.hy[j + 2], per_mm = at.per_hy[j + 1], per_h = at.per_hy[j + 2], per_pp = at.per_hy[j + 3];
     const double before = at.to_south[j + 2], after = at.from_south[j + 2], dt = q_.dt, nu = q_.nu;
+    const auto face = [&](int i, double v) {
+      const Stencil4 s{mm[i], m[i], p[i], pp[i], h, per_mm, per_h, per_pp, before, after};
+      return Scheme::face(s, v, dt, change_below[i], change[i], nu + 0.5 * (nut_below[i] + nut[i]));
+    };
+    const bool split = splits() && exceeds(j);
     const auto run = [&](auto through) {
+      if (!split) {
+        base::vector_loop(at.i0, at.i1, [&](int i) { flux[i] = through(i) * face(i, 0.5 * (va[i] + vb[i])); });
+        return;
+      }
+      double* rest = implicit_[j % 4];
       base::vector_loop(at.i0, at.i1, [&](int i) {
-        const Stencil4 s{mm[i], m[i], p[i], pp[i], h, per_mm, per_h, per_pp, before, after};
-        flux[i] = through(i) * Scheme::face(s, 0.5 * (va[i] + vb[i]), dt, change_below[i], change[i],
-                                            nu + 0.5 * (nut_below[i] + nut[i]));
+        const double v = 0.5 * (va[i] + vb[i]), most = most_explicit(i, j);
+        const double borne = std::clamp(v, -most, most), all = through(i);
+        const double explicitly = borne == v ? all : all * (borne / v);
+        rest[i] = all - explicitly;
+        flux[i] = explicitly * face(i, borne) + rest[i] * (v > 0 ? m[i] : p[i]);
       });
     };
+    if (splits()) is_implicit_[j % 4] = split;
     if (face_y_.is_one(j - sy) && face_y_.is_one(j))
       run([&](int i) { return share_a[i] * va[i] + share_b[i] * vb[i]; });
     else
       run([&](int i) { return share_a[i] * va[i] * open_a[i] + share_b[i] * vb[i] * open_b[i]; });
   }
 
+  /// Speed that the scheme bears at a south face of row j beside what passes along x [m/s].
+  double most_explicit(int i, int j) const {
+    const double h = std::min(q_.at.height[j + 1], q_.at.height[j + 2]);
+    const double passed = std::max(passed_x_[0][i], passed_x_[1][i]);
+    return std::max(0.0, q_.courant - passed) * h / q_.dt;
+  }
+
+  bool exceeds(int j) const {
+    const double *va = carrier_.v(j - q_.at.shift_y) - q_.at.shift_x, *vb = carrier_.v(j);
+    return base::vector_largest(q_.at.i0, q_.at.i1, 0.0,
+                                [&](int i) { return 0.5 * std::abs(va[i] + vb[i]) - most_explicit(i, j); }) > 0;
+  }
+
   const base::SharedRows &face_x_, &face_y_;
   CarrierRows& carrier_;
   Carried q_;
+  std::array<double*, 2> passed_x_{};  ///< Courant numbers along x of the rows beside the face
+  std::array<double*, 4> implicit_{};
+  std::array<bool, 4> is_implicit_{};
   double *west_ = nullptr, *south_ = nullptr, *north_ = nullptr, *across_x_ = nullptr, *across_y_below_ = nullptr,
          *across_y_ = nullptr;
   int j_ = 0;
 };
+
+/// What of the flow the schemes carry explicitly, as a Courant number of all directions [-]; infinite: all of it, for
+/// the step is chosen so that they can.
+inline double explicit_courant(const Params& p) {
+  return p.courant_y > 0 ? p.courant : std::numeric_limits<double>::infinity();
+}
 
 /// Calls body(Scheme{}) with the convection scheme of a case.
 template <class Body>
@@ -311,12 +367,43 @@ private:
 /// How far ahead of a walk down columns its rows are asked for.
 inline constexpr int rows_ahead = 16;
 
+/// Convection along y that is left to the columns: what ConvectionRows::implicit_y tells, times dt [m], row by row.
+class ImplicitConvection {
+public:
+  ImplicitConvection() = default;
+  explicit ImplicitConvection(const Mesh& mesh)
+      : rows_(mesh.nx, mesh.ny), any_(mesh.ny + 1, 0), nothing_(mesh.nx, 0.0) {}
+
+  /// Row j of faces <- dt x those of the quantity at `at`; null: nothing.
+  void keep(const Staggering& at, int j, double dt, const double* implicit) {
+    any_[j] = implicit != nullptr;
+    if (!implicit) return;
+    double* row = rows_.row(j);
+    base::vector_loop(at.i0, at.i1, [&](int i) { row[i] = dt * implicit[i]; });
+  }
+  /// Whether there is anything in the columns [ia, ib) of `at`.
+  bool any(const Staggering& at, int ia, int ib) const {
+    for (int j = at.j0; j <= at.j1; ++j)
+      if (any_[j] && base::vector_largest(ia, ib, 0.0, [row = rows_.row(j)](int i) { return std::abs(row[i]); }) > 0)
+        return true;
+    return false;
+  }
+  const double* row(int j) const { return any_[j] ? rows_.row(j) : nothing_.data(); }
+
+private:
+  base::Field rows_;
+  std::vector<char> any_;
+  std::vector<double> nothing_;
+};
+
 /// Columns [ia, ib) along y, at most 64, solved into `d` (rows of 64 values):
-///   (factor + s + n) d - s d_south - n d_north = factor x given,   s = k_south / height / inertia, n = k_north / ...,
-/// with k(j)[i] from keep_implicit_part [m].  What lies outside the unknowns is 0.
-template <class K>
+///   (factor + s + n + o) d - (s + i_south) d_south - (n + i_north) d_north = factor x given,
+/// s = k_south / height / inertia, n = k_north / ..., with k(j)[i] from keep_implicit_part [m]; o and i likewise, what
+/// `convection` carries out of the volume through both faces and in from either neighbour; none: `convection` is
+/// nullptr.  What lies outside the unknowns is 0.
+template <class K, class Convection>
 void solve_columns(const Staggering& at, const base::SharedRows& factor, const base::Field& given, int ia, int ib,
-                   K&& k, double* d, double* slope) {
+                   K&& k, Convection convection, double* d, double* slope) {
   constexpr int wide = ColumnScratch::columns;
   const int n = ib - ia;
   for (int j = at.j0; j < at.j1; ++j) {
@@ -327,20 +414,47 @@ void solve_columns(const Staggering& at, const base::SharedRows& factor, const b
     const double* below = j > at.j0 ? here - wide : here;
     const double* s_below = j > at.j0 ? s - wide : s;
     if (j + rows_ahead < at.j1) base::fetch_ahead(given.row(j + rows_ahead), ia, ib);
-    base::vector_loop(0, n, [&](int i) {
-      const double scale = per_height * per_inertia[i];
-      const double south = scale * south_k[i], north = scale * north_k[i];
-      const double from_south = has_below * south;
-      const double pivot = 1.0 / (f[i] + south + north - from_south * s_below[i]);
-      s[i] = north * pivot;
-      here[i] = (f[i] * g[i] + from_south * below[i]) * pivot;
-    });
+    const auto run = [&](auto through_south, auto through_north) {
+      base::vector_loop(0, n, [&](int i) {
+        const double scale = per_height * per_inertia[i];
+        const double south = scale * south_k[i], north = scale * north_k[i];
+        const auto [in_south, out_south] = through_south(i, scale);
+        const auto [out_north, in_north] = through_north(i, scale);
+        const double from_south = has_below * (south + in_south);
+        const double pivot = 1.0 / (f[i] + south + north + out_south + out_north - from_south * s_below[i]);
+        s[i] = (north + in_north) * pivot;
+        here[i] = (f[i] * g[i] + from_south * below[i]) * pivot;
+      });
+    };
+    struct UpDown {
+      double up, down;
+    };
+    if constexpr (std::is_null_pointer_v<Convection>) {
+      const auto nothing = [](int, double) { return UpDown{0.0, 0.0}; };
+      run(nothing, nothing);
+    } else {
+      const auto through = [ia](const double* row) {
+        return [row = row + ia](int i, double scale) {
+          return UpDown{scale * std::max(row[i], 0.0), scale * std::max(-row[i], 0.0)};
+        };
+      };
+      run(through(convection->row(j)), through(convection->row(j + 1)));
+    }
   }
   for (int j = at.j1 - 2; j >= at.j0; --j) {
     double* here = d + j * wide;
     const double *s = slope + j * wide, *above = here + wide;
     base::vector_loop(0, n, [&](int i) { here[i] += s[i] * above[i]; });
   }
+}
+
+/// Calls body(convection) with what the columns [ia, ib) are to carry, nullptr when that is nothing.
+template <class Body>
+void with_implicit(const ImplicitConvection& convection, const Staggering& at, int ia, int ib, Body&& body) {
+  if (convection.any(at, ia, ib))
+    body(&convection);
+  else
+    body(nullptr);
 }
 
 /// Calls body(ia, ib) for blocks of the columns of `at`, on all threads.

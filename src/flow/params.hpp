@@ -72,6 +72,7 @@ struct Params {
   double floor_roughness = 0;        ///< ks [m]
   bool wall_damping = true;          ///< Van Driest's factor in epsilon at walls (Eq. 10-11) of the k-epsilon closures
   double courant = 0.8;              ///< target of the adaptive step [-]
+  double courant_y = 0;              ///< the same along y, what is beyond `courant` being implicit; 0: all explicit [-]
   double max_step = 0.01;            ///< [s]; the step of simple
   double pressure_tolerance = 1e-6;  ///< residual after the solve over residual before it [-]
   int pressure_iterations = 100;     ///< most iterations before the solve counts as failed

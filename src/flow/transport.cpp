@@ -24,7 +24,7 @@ ScalarRows<Scheme>::ScalarRows(const Mesh& mesh, const Params& params, const Tur
       convect_(w.face_x, w.face_y, carrier,
                {at, of_k ? s.k : turbulence.second(s), of_k ? s.k_old : turbulence.second_old(s),
                 of_k ? s.convection_k : s.convection_e, s.step > 0 ? 1.0 / s.step : 0.0, lead, true, turbulence.nut(),
-                params.viscosity},
+                params.viscosity, explicit_courant(params)},
                scratch) {
   for (double*& row : exchange_y_) row = scratch.take();
 }
@@ -111,6 +111,7 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
       int count = 0;
       for (; j < jb && count < together; ++j, ++count) {
         turbulence.fill_rates(m, j, s, rates);
+        w.implicit_y.keep(at, j, dt, rows_k.implicit_y(j));
         for (int q : {0, 1}) {
           const bool of_k = q == 0;
           double* d = (of_k ? change_k : change_e).row(j);
@@ -127,6 +128,7 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
       for (int q : {0, 1}) solve_rows(at, systems[q].data(), count);
     }
   });
+  w.implicit_y.keep(at, m.ny, dt, nullptr);  // nothing passes the lid
   over_columns(at, w.columns, [&](int ia, int ib) {
     constexpr int wide = ColumnScratch::columns;
     const bool half = little_everywhere;
@@ -145,7 +147,10 @@ void advance_both(const Mesh& m, const Params& params, const Staggering& at, dou
         }
         return k - ia;
       };
-      solve_columns(at, turbulence.factor(of_k), of_k ? change_k : change_e, ia, ib, exchange_of, d, slope);
+      with_implicit(w.implicit_y, at, ia, ib, [&](auto convection) {
+        solve_columns(at, turbulence.factor(of_k), of_k ? change_k : change_e, ia, ib, exchange_of, convection, d,
+                      slope);
+      });
       const Field& now = of_k ? s.k : turbulence.second(s);
       const double floor = of_k ? k_floor : turbulence.second_floor();
       for (int j = 0; j < m.ny; ++j) {

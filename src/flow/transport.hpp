@@ -14,6 +14,7 @@ public:
   /// of it; kx <- exchange across west faces [m/s].
   void next(const double* gain, const double* decay, double* rate, double* convection, double* kx);
   const double* exchange_y(int j) const { return exchange_y_[j % 2]; }
+  const double* implicit_y(int j) const { return convect_.implicit_y(j); }
 
 private:
   void fill_y(int j);

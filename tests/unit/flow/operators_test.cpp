@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 #include "flow/momentum.hpp"
@@ -35,7 +36,8 @@ base::Field sample(const Mesh& m, const Staggering& at, F&& f) {
 
 /// Convection of phi in a uniform flow on all its unknowns [1/s]; apertures as given.
 base::Field convect(const Mesh& m, const Staggering& at, Convection scheme, double u, double v, const base::Field& phi,
-                    double nu, double dt, const base::Field& face_x, const base::Field& face_y) {
+                    double nu, double dt, const base::Field& face_x, const base::Field& face_y,
+                    double courant = std::numeric_limits<double>::infinity(), base::Field* implicit = nullptr) {
   base::Field out(m.nx, m.ny), zero(m.nx, m.ny), flow_u(m.nx, m.ny, 2, u), flow_v(m.nx, m.ny, 2, v);
   const base::SharedRows open_x(face_x), open_y(face_y);
   RowScratch scratch(m);
@@ -43,11 +45,16 @@ base::Field convect(const Mesh& m, const Staggering& at, Convection scheme, doub
     scratch.over_blocks(at.j0, at.j1, [&](int ja, int jb) {
       RowScratch::Rows rows = scratch.rows();
       CarrierRows carrier(m, {flow_u, flow_v, flow_u, flow_v, 0.0}, rows);
-      ConvectionRows<decltype(kind)> convection(open_x, open_y, carrier, {at, phi, phi, zero, 0.0, dt, false, zero, nu},
-                                                rows);
+      ConvectionRows<decltype(kind)> convection(open_x, open_y, carrier,
+                                                {at, phi, phi, zero, 0.0, dt, false, zero, nu, courant}, rows);
       carrier.start(ja - 2);
       convection.start(ja);
-      for (int j = ja; j < jb; ++j) convection.next(out.row(j));
+      for (int j = ja; j < jb; ++j) {
+        convection.next(out.row(j));
+        for (const int face : {j, j + 1})
+          if (const double* row = implicit ? convection.implicit_y(face) : nullptr)
+            std::copy(row + at.i0, row + at.i1, implicit->row(face) + at.i0);
+      }
     });
   });
   return out;
@@ -100,6 +107,99 @@ TEST(convect, moves_but_never_makes) {
   }
 }
 
+TEST(convect, leaves_along_y_what_exceeds_the_courant_number) {
+  const Mesh m = graded_mesh();
+  const double u = 0.4, v = -0.9, dt = 0.02, courant = 0.7;
+  for (const Staggering& at : {Staggering::centres(m), Staggering::west_faces(m), Staggering::south_faces(m)}) {
+    // What is the same everywhere stays so; what is linear is carried upwind.
+    base::Field implicit(m.nx, m.ny);
+    const base::Field flat = sample(m, at, [](double, double) { return 3.0; });
+    const base::Field out =
+        convect(m, at, Convection::bounded, u, v, flat, 0, dt, m.aperture_x, m.aperture_y, courant, &implicit);
+    int left = 0;
+    for (int j = at.j0 + 2; j < at.j1 - 2; ++j)
+      for (int i = at.i0 + 2; i < at.i1 - 2; ++i) {
+        ASSERT_NEAR(out(i, j), 0.0, 1e-12) << i << "," << j;
+        const double passed = u * dt / at.width[i + 2], h = std::min(at.height[j + 1], at.height[j + 2]);
+        const double borne = std::min(-v, std::max(0.0, courant - passed) * h / dt);
+        ASSERT_NEAR(implicit(i, j), v + borne, 1e-12) << i << "," << j;
+        left += implicit(i, j) < 0;
+      }
+    EXPECT_GT(left, 100);
+    const base::Field up = sample(m, at, [](double, double y) { return 5 * y; });
+    base::Field all(m.nx, m.ny);
+    const base::Field upwind =
+        convect(m, at, Convection::bounded, 0, v, up, 0, dt, m.aperture_x, m.aperture_y, 1e-9, &all);
+    for (int j = at.j0 + 2; j < at.j1 - 2; ++j) {
+      const double expected = -v * 5 * at.hy[j + 3] / at.height[j + 2];  // from above, over the distance of the nodes
+      ASSERT_NEAR(upwind(at.i0 + 3, j), expected, 1e-6 * expected) << j;
+    }
+  }
+}
+
+TEST(convect, is_the_same_to_the_bit_where_nothing_exceeds) {
+  const Mesh m = graded_mesh();
+  const Staggering at = Staggering::centres(m);
+  const base::Field phi = sample(m, at, [](double x, double y) { return std::sin(9 * x) * std::cos(7 * y); });
+  base::Field implicit(m.nx, m.ny);
+  const base::Field all = convect(m, at, Convection::bounded, 0.5, 0.4, phi, 0, 0.01, m.aperture_x, m.aperture_y);
+  const base::Field part =
+      convect(m, at, Convection::bounded, 0.5, 0.4, phi, 0, 0.01, m.aperture_x, m.aperture_y, 0.8, &implicit);
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i) {
+      ASSERT_EQ(all(i, j), part(i, j));
+      ASSERT_EQ(implicit(i, j), 0.0);
+    }
+}
+
+TEST(solve_columns, carries_upwards_and_downwards) {
+  MeshParams grid;
+  grid.length = 0.96, grid.height = 0.3, grid.cell_x = 0.01, grid.cell_y = 0.015;
+  PipeParams pipe;
+  pipe.present = false;
+  const Mesh m = make_mesh(grid, pipe);
+  const Staggering at = Staggering::centres(m);
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> value(0, 1);
+  base::Field k(m.nx, m.ny), given(m.nx, m.ny), d(m.nx, m.ny), through(m.nx, m.ny);
+  const base::SharedRows ones(base::Field(m.nx, m.ny, 2, 1.0));
+  ImplicitConvection convection(m);
+  for (int j = 0; j <= m.ny; ++j) {
+    for (int i = 0; i < m.nx; ++i) {
+      k(i, j) = 0.1 * value(random);
+      // Some rows and, below, some blocks of columns have none.
+      through(i, j) = j == 0 || j == m.ny || j % 3 == 0 || i >= 64 ? 0.0 : value(random) - 0.5;
+      if (j < m.ny) given(i, j) = value(random) - 0.5;
+    }
+    convection.keep(at, j, 1.0, j == 0 || j == m.ny || j % 3 == 0 ? nullptr : through.row(j));
+  }
+  ColumnScratch scratch(m);
+  int with = 0, without = 0;
+  over_columns(at, scratch, [&](int ia, int ib) {
+    double* column = scratch.piece(0);
+    with_implicit(convection, at, ia, ib, [&](auto carried) {
+      ++(std::is_null_pointer_v<decltype(carried)> ? without : with);
+      solve_columns(
+          at, ones, given, ia, ib, [&](int j) { return k.row(j); }, carried, column, scratch.piece(1));
+    });
+    for (int j = 0; j < m.ny; ++j)
+      for (int i = ia; i < ib; ++i) d(i, j) = column[j * ColumnScratch::columns + i - ia];
+  });
+  EXPECT_GT(with, 0);
+  EXPECT_GT(without, 0) << "the mesh has " << m.nx << " columns";
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i) {
+      const auto flux = [&](int face) {  // of d through a south face: diffusion and upwind convection
+        const double below = face > 0 ? d(i, face - 1) : 0.0, above = face < m.ny ? d(i, face) : 0.0;
+        const bool inner = face > 0 && face < m.ny;
+        const double spread = inner ? k(i, face) * (below - above) : k(i, face) * (face == 0 ? -above : below);
+        return spread + through(i, face) * (through(i, face) > 0 ? below : above);
+      };
+      const double balance = d(i, j) - (flux(j) - flux(j + 1)) / at.inertia_(i, j) / at.height[j + 2];
+      ASSERT_NEAR(balance, given(i, j), 1e-11) << i << "," << j;
+    }
+}
+
 TEST(solve_rows, inverts_its_own_matrices) {
   const Mesh m = graded_mesh();
   const Staggering at = Staggering::west_faces(m);
@@ -124,7 +224,7 @@ TEST(solve_rows, inverts_its_own_matrices) {
       over_columns(at, scratch, [&](int ia, int ib) {
         double* d = scratch.piece(0);
         solve_columns(
-            at, factor_rows, given, ia, ib, [&](int j) { return k.row(j); }, d, scratch.piece(1));
+            at, factor_rows, given, ia, ib, [&](int j) { return k.row(j); }, nullptr, d, scratch.piece(1));
         for (int j = at.j0; j < at.j1; ++j)
           for (int i = ia; i < ib; ++i) phi(i, j) = d[j * ColumnScratch::columns + i - ia];
       });

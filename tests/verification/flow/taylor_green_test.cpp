@@ -18,9 +18,12 @@ struct TaylorGreen {
   double amplitude = 1;  ///< largest speed at the start
   Convection scheme = Convection::bounded;
   double stretch = 0;  ///< cells at the far sides are 1 + stretch times as wide as those in the middle
+  int flat = 1;        ///< cells are so many times as wide as high
+  double courant_y = 0;
 
   Params params(int n) const {
-    Params p = laminar(pi, pi, n, n, nu);
+    Params p = laminar(pi, pi, n, flat * n, nu);
+    p.courant_y = courant_y;
     if (amplitude < 1) p.pressure_tolerance = 1e-6;  // what is left of the divergence is near round-off
     p.convection = scheme;
     if (stretch > 0) {  // the grading scales with the cells: all grids of a series are the same map
@@ -151,6 +154,19 @@ TEST(taylor_green, convection_mixes_step_and_cell) {
   std::printf("h dt term: %.3e %.3e\n", coarse, fine);
   EXPECT_NEAR(coarse / fine, 2.0, 0.2);
   EXPECT_LT(fine, 1e-4);
+}
+
+TEST(taylor_green, order_one_where_convection_along_y_is_implicit) {
+  TaylorGreen c;
+  c.flat = 4;  // the step passes 0.4 of a cell along x and 1.6 along y
+  const auto error = [&](int n) { return c.error(n, 0.4 * pi / n, 0.4 * pi); };
+  c.courant_y = 2;
+  const double fine = error(96), p = order("implicit along y", error(24), error(48), fine);
+  EXPECT_GT(p, 0.9);
+  EXPECT_LT(p, 1.2);
+  EXPECT_LT(fine, 0.02);
+  c.courant_y = 0;
+  EXPECT_FALSE(error(48) < 1) << "the explicit scheme bears this step, so the test shows nothing";
 }
 
 TEST(taylor_green, order_one_where_the_hybrid_scheme_is_upwind) {
