@@ -1,5 +1,6 @@
 #include "coupling/exchange.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -152,15 +153,37 @@ void Coupler::forget_still(grains::State& g) {
   located_ = voids_filled_ = false;
 }
 
+void Coupler::unsettle_surface(grains::State& g) {
+  constexpr double wide = 3;  // columns [d]: each holds some grains of the topmost layer
+  const double per_width = 1.0 / (wide * slab_);
+  const auto column = [&](int k) { return static_cast<std::size_t>(std::max(0.0, g.x[k] * per_width)); };
+  std::fill(surface_.begin(), surface_.end(), 0.0);
+  for (int k = 0; k < g.count(); ++k) {
+    if (!is_still(g, k)) continue;
+    if (column(k) >= surface_.size()) surface_.resize(column(k) + 1, 0.0);
+    surface_[column(k)] = std::max(surface_[column(k)], g.y[k]);
+  }
+  std::vector<int> ids;
+  for (int k = 0; k < g.count(); ++k) {
+    if (!is_still(g, k) || g.y[k] < surface_[column(k)] - surface_depth * slab_) continue;
+    g.fluid.still[k] = 0;
+    ids.push_back(g.id[k]);
+  }
+  add_still(ids, -1);
+}
+
 template <class Rests>
 void Coupler::settle(grains::State& g, Rests&& rests) {
   const std::int64_t place = ++steps_ % steps_a_round;
-  if (place == 0) forget_still(g);
+  if (place == 0 && steps_ / steps_a_round % rounds_of_the_deep == 0)
+    forget_still(g);
+  else if (place == 0)
+    unsettle_surface(g);
   if (place != 1) return;
   g.fluid.still.resize(g.x.size());
   std::vector<int> still;
   for (int k = 0; k < g.count(); ++k) {
-    if (!rests(k)) continue;
+    if (is_still(g, k) || !rests(k)) continue;
     const int id = g.id[k];
     g.fluid.still[k] = 1, still.push_back(id);
     still_x_[id] = g.x[k], still_y_[id] = g.y[k];
@@ -192,17 +215,20 @@ double Coupler::response_time(const grains::State& g, int k) const {
 }
 
 double Coupler::step_limit(const grains::State& g) const {
-  double limit = std::numeric_limits<double>::infinity();
-  if (params_.voidage == Voidage::off || params_.mode != Mode::two_way) return limit;
+  if (params_.voidage == Voidage::off || params_.mode != Mode::two_way) return std::numeric_limits<double>::infinity();
+  responses_.clear();
   const auto may_move = [&](int k) {
-    if (!is_still(g, k)) limit = std::min(limit, response_time(g, k));
+    if (!is_still(g, k)) responses_.push_back(response_time(g, k));
   };
   if (located_) {
     std::for_each(moving_.begin(), moving_.end(), may_move);
   } else {
     for (int k = 0; k < g.count(); ++k) may_move(k);
   }
-  return step_over_response * limit;
+  if (responses_.empty()) return std::numeric_limits<double>::infinity();
+  const auto least = responses_.begin() + static_cast<std::ptrdiff_t>(grains_passed_over * std::ssize(responses_));
+  std::nth_element(responses_.begin(), least, responses_.end());
+  return step_over_response * *least;
 }
 
 void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double interval) {

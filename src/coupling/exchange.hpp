@@ -17,17 +17,20 @@ using DragLaw = std::variant<PaperDrag, DiFeliceDrag, GidaspowDrag, RongDrag>;
 /// below that the kernel has put a share of a grain where a sliver of water is.
 inline constexpr double voidage_least = 0.3;
 
-/// Largest step of the flow over the response time of any grain [-].  The water learns a step late what the grains do,
-/// through drag and through the room that they leave: in a dense bed that swings more and more beyond 0.7.
-inline constexpr double step_over_response = 0.5;
+/// Largest step of the flow over the response time of all but a few grains [-].  The water learns a step late what the
+/// grains do, through drag and through the room that they leave: in a dense bed that swings more and more beyond 0.7.
+/// It is the bed that swings; single grains of a thousand, the smallest where others leave them the least room, do not.
+inline constexpr double step_over_response = 0.5, grains_passed_over = 1e-3;
 
 /// The bed counts as packed, and its water as unmixed, from this share of the packed solid fraction on [-].
 inline constexpr double packed_solid = 0.55, packed_share = 0.9;
 /// A face with less opening than this passes no pressure gradient on to grains [-]: the pressure in a sliver of a cell
 /// is whatever stops the little that flows there.
 inline constexpr double sliver = 0.05;
-/// The water around grains that are still is looked at every so many steps of the flow.
-inline constexpr int steps_a_round = 64;
+/// The water around grains that are still is looked at every so many steps of the flow; deeper below the bed's surface
+/// than this [d], where nothing but the pressure changes, every so many rounds.
+inline constexpr int steps_a_round = 64, rounds_of_the_deep = 8;
+inline constexpr double surface_depth = 10;
 /// Half the length along the current over which the solid fraction that bounds the eddies is averaged, over d [-].  A
 /// grain that flies alone fills its cell and would count as a bed.
 inline constexpr double averaged_over = 3;
@@ -61,8 +64,9 @@ struct Materials {
 /// Forces per volume in a cell are sums of forces over dx dy b with b the grain diameter (spheres in a slab).
 ///
 /// Grains that sleep (grains::Sleep) neither move nor see other water: in the first step of a round they are treated
-/// like all others; from then on the sum of what they do to the cells is kept, and each is taken out of it when it
-/// wakes.  Grains that are held while the flow spins up are all still.
+/// like all others (those deep in the bed in the first step of some rounds); from then on the sum of what they do to
+/// the cells is kept, and each is taken out of it when it wakes.  Grains that are held while the flow spins up are all
+/// still.
 ///
 /// Where the inlet is recycled the water has no beginning and no end and is the same all along the box: what the grains
 /// do to it is averaged along x, as in the one-dimensional flows that bed-load experiments are compared with (Revil-
@@ -117,6 +121,8 @@ private:
   template <class Rests>
   void settle(grains::State& g, Rests&& rests);
   void forget_still(grains::State& g);
+  /// Nobody near the bed's surface is still any more.
+  void unsettle_surface(grains::State& g);
   /// Adds what the grains of a list do to the cells to the sums of those that are still, or takes it away again.
   void add_still(const std::vector<int>& ids, double sign);
   /// Rows of the grid, from the floor, that the kernel of any grain touches.
@@ -171,6 +177,8 @@ private:
   base::Field still_solid_, still_beta_u_, still_beta_v_, still_damping_;
   std::vector<int> moving_;  ///< all others, in the order of the storage
   std::vector<int> woken_;   ///< those of them that were still when the step began
+  mutable std::vector<double> responses_;
+  std::vector<double> surface_;  ///< highest grain that is still, in columns along the box [m]
 
   base::Field volume_c_;  ///< of the cells, water and grains, slab included [m3]
   base::Field voids_, slope_u_, slope_v_, rate_u_, rate_v_, curl_;

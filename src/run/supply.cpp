@@ -12,7 +12,7 @@ namespace livebed::run {
 namespace {
 
 /// The ends are looked at when the water has gone this far [d].
-constexpr double way_between_looks = 8;
+constexpr double way_between_looks = 16;
 /// So far from an end grains come and go [d]: the fastest are half as fast again as the mean current.
 constexpr double reach_of_ends = 1.5 * way_between_looks;
 constexpr double lift = 0.25;  ///< a newcomer who would lie on others is set higher by this [d]
