@@ -74,9 +74,12 @@ void add_flow(std::vector<Row>& s) {
   s.push_back(word<flow::Closure>("flow.closure", flow(&F::closure),
                                   {{"k_epsilon", flow::Closure::k_epsilon},
                                    {"k_epsilon_realizable", flow::Closure::k_epsilon_realizable},
+                                   {"k_omega", flow::Closure::k_omega},
                                    {"k_omega_sst", flow::Closure::k_omega_sst},
                                    {"laminar", flow::Closure::laminar}})
-                  .says("turbulence model: the standard one; with Durbin's bound on its time scale; Menter's SST; none")
+                  .says("turbulence model: the standard one; with Durbin's bound on its time scale; Wilcox's k-omega "
+                        "of 2006; Menter's "
+                        "SST; none")
                   .from("Eq. 4-7, Table 1: k_epsilon"));
   s.push_back(
       real("flow.realizability", "-", flow(&F::realizability))

@@ -51,7 +51,7 @@ double spalding_friction(double speed, double y, double nu) {
 }
 
 double wall_friction(Closure closure, Wall wall, double speed, double y, double ks, double nu) {
-  if (closure == Closure::k_omega_sst && wall == Wall::smooth) return spalding_friction(speed, y, nu);
+  if (transports_omega(closure) && wall == Wall::smooth) return spalding_friction(speed, y, nu);
   return wall_friction(wall, speed, y, ks, nu);
 }
 

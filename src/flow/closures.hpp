@@ -19,7 +19,7 @@ struct Local {
   double nut;     ///< eddy viscosity [m2/s]
   double strain;  ///< S^2 = 2 S_ij S_ij [1/s2]
   double cross;   ///< grad k . grad e, filled for omega closures alone
-  double blend;   ///< 1 in the wall layer of a blended closure, 0 outside
+  double blend;   ///< of an omega closure: what its diffusion depends on (1 in the wall layer of SST, 0 outside)
 };
 
 /// dc/dt = gain - decay c.  decay is never negative; gain may be.
@@ -75,6 +75,41 @@ struct RealizableKEpsilon {
   }
 };
 
+/// omega at distance y from a wall [1/s]: u*/(sqrt(Cmu) kappa y) in the log layer, 6 nu/(beta y^2) in the viscous layer
+/// of a wall that is not rough, and the root of the sum of their squares between (Menter's automatic wall treatment).
+inline double omega_at_wall(double beta, double u_star, double y, double nu, bool viscous_layer) {
+  const double log_layer = u_star / (std::sqrt(launder_spalding.c_mu) * kappa * y);
+  const double viscous = viscous_layer ? 6.0 * nu / (beta * y * y) : 0.0;
+  return std::hypot(log_layer, viscous);
+}
+
+/// k-omega, Wilcox (2008), AIAA J. 46, 2823, in two dimensions: cross diffusion where k and omega rise together, and a
+/// stress of at most sqrt(beta*)/C_lim of k.
+struct KOmega {
+  static constexpr bool transports_omega = true;
+  static constexpr double beta_star = 0.09, beta = 0.0708, gamma = 13.0 / 25.0, sigma_k = 0.6, sigma_omega = 0.5,
+                          sigma_d = 0.125, stress_limiter = 7.0 / 8.0;
+
+  /// The omega that the eddy viscosity feels.
+  static double felt(double omega, double strain) {
+    return std::max(omega, stress_limiter * std::sqrt(strain * (1.0 / beta_star)));
+  }
+  Rates k(const Local& a) const { return {a.nut * a.strain, beta_star * a.e}; }
+  Rates e(const Local& a) const {
+    return {gamma * a.e / a.k * a.nut * a.strain + sigma_d * std::max(a.cross, 0.0) / a.e, beta * a.e};
+  }
+  /// k and omega spread by k/omega, not by the eddy viscosity that the limit holds down: the ratio of the two.
+  double blend(const Local& a, double /*y*/, double /*nu*/) const { return felt(a.e, a.strain) / a.e; }
+  double diffusion_k(double blend) const { return sigma_k * blend; }
+  double diffusion_e(double blend) const { return sigma_omega * blend; }
+  double eddy_viscosity(double k, double omega, double strain, double /*y*/, double /*nu*/) const {
+    return k / felt(omega, strain);
+  }
+  static double wall_omega(double u_star, double y, double nu, bool viscous_layer) {
+    return omega_at_wall(beta, u_star, y, nu, viscous_layer);
+  }
+};
+
 /// tanh(a) for a >= 0 by its continued fraction (Lambert), 1 beyond 4.97; within 1e-4, and a vector instruction.
 inline double blending_tanh(double a) {
   const double x = std::min(a, 4.97), x2 = x * x;
@@ -123,24 +158,21 @@ struct KOmegaSst {
     const double F2 = blending_tanh(argument * argument);
     return a1 * k / std::max(a1 * omega, std::sqrt(strain) * F2);
   }
-  /// omega at distance y from a wall [1/s]: u*/(sqrt(Cmu) kappa y) in the log layer, 6 nu/(beta y^2) in the viscous
-  /// layer of a wall that is not rough, and the root of the sum of their squares between (Menter's automatic wall
-  /// treatment).
   static double wall_omega(double u_star, double y, double nu, bool viscous_layer) {
-    const double log_layer = u_star / (std::sqrt(beta_star) * kappa * y);
-    const double viscous = viscous_layer ? 6.0 * nu / (inner.beta * y * y) : 0.0;
-    return std::hypot(log_layer, viscous);
+    return omega_at_wall(inner.beta, u_star, y, nu, viscous_layer);
   }
 };
 
 /// A new closure: one struct, one entry, one word of Closure, one test.
-using ClosureLaw = std::variant<StandardKEpsilon, RealizableKEpsilon, KOmegaSst>;
+using ClosureLaw = std::variant<StandardKEpsilon, RealizableKEpsilon, KOmega, KOmegaSst>;
 
 /// The law of a turbulent closure; the standard one for laminar flow, which never asks it.
 inline ClosureLaw closure_law(const Params& params) {
   switch (params.closure) {
     case Closure::k_epsilon_realizable:
       return RealizableKEpsilon{params.realizability * per_sqrt_3};
+    case Closure::k_omega:
+      return KOmega{};
     case Closure::k_omega_sst:
       return KOmegaSst{};
     case Closure::k_epsilon:

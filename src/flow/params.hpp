@@ -5,8 +5,9 @@
 namespace livebed::flow {
 
 /// k_epsilon: the standard model (paper, Table 1).  k_epsilon_realizable: with Durbin's bound on its time scale.
-/// k_omega_sst: Menter's model, down to the wall where the grid resolves it.
-enum class Closure { laminar, k_epsilon, k_epsilon_realizable, k_omega_sst };
+/// k_omega: Wilcox's model of 2006; k_omega_sst: Menter's; both down to the wall where the grid resolves it.
+enum class Closure { laminar, k_epsilon, k_epsilon_realizable, k_omega, k_omega_sst };
+inline constexpr bool transports_omega(Closure c) { return c == Closure::k_omega || c == Closure::k_omega_sst; }
 
 /// hybrid: central below a cell Peclet number of 2, upwind above (the paper).  bounded: second order with a limiter.
 enum class Convection { hybrid, bounded };

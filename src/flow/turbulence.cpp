@@ -118,12 +118,13 @@ double Turbulence::shear_velocity(const WallPlace& a, const State& s, const Work
 
 void Turbulence::set_walls(const Params& params, const State& s, const Workspace& w) {
   const double nu = params.viscosity;
+  const bool sst = params.closure == Closure::k_omega_sst;
   for (std::size_t n = 0; n < walls_.size(); ++n) {
     WallPlace& a = walls_[n];
     const double u_star = shear_velocity(a, s, w);
     double& e = fixed_e_.cells[fixed_e_.of_wall[n]].value;
     if (with_omega()) {
-      e = KOmegaSst::wall_omega(u_star, a.y, nu, a.wall != Wall::rough);
+      e = (sst ? KOmegaSst::wall_omega : KOmega::wall_omega)(u_star, a.y, nu, a.wall != Wall::rough);
       // The stress u*^2 does its work on the slope u*^2/(nu + nut) at every distance; k is 0 on a smooth wall.
       const double nut = nut_(a.i, a.j);
       a.gain = nut * square(u_star * u_star / (nu + nut));
@@ -187,8 +188,16 @@ void Turbulence::prepare(const Mesh& m, const Boundary& b, const Params& params,
       law_);
   fill_scalar_ghosts(m, nullptr, nut_);
   set_walls(params, s, w);
-  const KOmegaSst* sst = std::get_if<KOmegaSst>(&law_);
-  if (!sst) return;
+  std::visit(
+      [&](const auto& law) {
+        if constexpr (std::decay_t<decltype(law)>::transports_omega) fill_blend(m, params, law, s, w);
+      },
+      law_);
+}
+
+template <class Law>
+void Turbulence::fill_blend(const Mesh& m, const Params& params, const Law& law, const State& s, const Workspace& w) {
+  const double nu = params.viscosity;
   for_each_item(0, m.ny, [&](int j) {
     const double *k = s.k.row(j), *kb = s.k.row(j - 1), *ka = s.k.row(j + 1);
     const double *o = omega_.row(j), *ob = omega_.row(j - 1), *oa = omega_.row(j + 1);
@@ -206,7 +215,7 @@ void Turbulence::prepare(const Mesh& m, const Boundary& b, const Params& params,
       const double dodx = west * (o[i] - o[i - 1]) + east * (o[i + 1] - o[i]);
       const double dody = south * (o[i] - ob[i]) + north * (oa[i] - o[i]);
       cross[i] = 0.25 * (dkdx * dodx + dkdy * dody);
-      blend[i] = sst->blend({k[i], o[i], nut[i], strain[i], cross[i], 0.0}, y[i], nu);
+      blend[i] = law.blend({k[i], o[i], nut[i], strain[i], cross[i], 0.0}, y[i], nu);
     });
   });
   fill_scalar_ghosts(m, nullptr, blend_);

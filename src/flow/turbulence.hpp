@@ -30,7 +30,9 @@ public:
   /// fields must live as long as they are used.
   void set_sources(const base::Field* of_k, const base::Field* of_e) { source_k_ = of_k, source_e_ = of_e; }
 
-  bool with_omega() const { return std::holds_alternative<KOmegaSst>(law_); }
+  bool with_omega() const {
+    return std::visit([](const auto& law) { return std::decay_t<decltype(law)>::transports_omega; }, law_);
+  }
   const base::Field& second(const State& s) const { return with_omega() ? omega_ : s.epsilon; }
   const base::Field& second_old(const State& s) const { return with_omega() ? omega_old_ : s.epsilon_old; }
   double second_floor() const;
@@ -85,6 +87,9 @@ private:
   template <class Fill>
   void with_diffusion(bool of_k, Fill&& fill) const;
   void set_walls(const Params& params, const State& s, const Workspace& w);
+  /// Fills cross_ and blend_.
+  template <class Law>
+  void fill_blend(const Mesh& mesh, const Params& params, const Law& law, const State& s, const Workspace& w);
 
   ClosureLaw law_;
   std::vector<WallPlace> walls_;
@@ -95,7 +100,7 @@ private:
   base::Field distance_;                           ///< of cells from the nearest wall [m]
   base::Field strain_;                             ///< S^2 [1/s2]
   base::Field nut_;                                ///< centred in the step to come [m2/s]
-  base::Field omega_, omega_old_, cross_, blend_;  ///< of omega closures
+  base::Field omega_, omega_old_, cross_, blend_;  ///< of omega closures (Local)
   const base::Field *source_k_ = nullptr, *source_e_ = nullptr;
   double ahead_ = 0;
 };

@@ -32,6 +32,8 @@ const char* name_of(flow::Closure closure) {
       return "k-epsilon";
     case flow::Closure::k_epsilon_realizable:
       return "realizable";
+    case flow::Closure::k_omega:
+      return "k-omega";
     case flow::Closure::k_omega_sst:
       return "k-omega-sst";
     case flow::Closure::laminar:

@@ -1,5 +1,6 @@
 #include "coupling/exchange.hpp"
 
+#include <array>
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -190,6 +191,55 @@ TEST(coupler, keeps_what_grains_asleep_do_to_the_water) {
   EXPECT_NE(asleep.coupler.ledger().to_flow.x, awake.coupler.ledger().to_flow.x) << "nobody was still";
   EXPECT_NEAR(asleep.coupler.ledger().to_flow.x, awake.coupler.ledger().to_flow.x,
               0.02 * std::abs(awake.coupler.ledger().to_flow.x));
+}
+
+TEST(coupler, looks_at_sleepers_deep_in_the_bed_less_often) {
+  Pair pair({});
+  // One above the other in the same column, further apart than what counts as the surface.
+  pair.g.x = {0.031, 0.032}, pair.g.y = {0.026, 0.026 - (surface_depth + 1) * d};
+  pair.g.u = pair.g.v = {0.0, 0.0};
+  pair.g.sleep.asleep = {1, 1};
+  const auto looked_at = [&](double speed) {  // which of the two see the water that is there now
+    pair.solver.state.u.fill(speed);
+    pair.coupler.load_flow(pair.g, pair.solver, 1e-3, false);
+    const auto sees = [&](int k) {
+      const double beta = PaperDrag{}({speed, pair.g.diameter[k], rho, nu, 1});
+      return std::abs(pair.g.fluid.beta[k] - beta) < 1e-12 * beta;
+    };
+    const std::array<bool, 2> both{sees(0), sees(1)};
+    pair.coupler.collect(pair.g, pair.solver, 1e-3);
+    return both;
+  };
+  EXPECT_EQ(looked_at(0.1), (std::array{true, true}));
+  std::array<int, 2> looks{};
+  for (int n = 1; n <= 2 * rounds_of_the_deep * steps_a_round; ++n) {
+    const auto both = looked_at(0.1 + 1e-3 * n);
+    for (int k : {0, 1}) looks[k] += both[k];
+    ASSERT_TRUE(both[0] || !both[1]) << n;
+  }
+  EXPECT_EQ(looks[0], 2 * rounds_of_the_deep);
+  EXPECT_EQ(looks[1], 2);
+}
+
+TEST(coupler, bounds_the_step_by_the_response_of_all_but_one_grain_in_a_thousand) {
+  constexpr int count = 1500;
+  const Params params{.drag = Drag::di_felice, .voidage = Voidage::on};
+  Pair pair(params);
+  grains::State& g = pair.g;
+  for (grains::Array* a : {&g.x, &g.y, &g.u, &g.v, &g.fluid.u, &g.fluid.v, &g.fluid.beta, &g.fluid.fx, &g.fluid.fy,
+                           &g.impulse_x, &g.impulse_y})
+    a->assign(count, 0.0);
+  g.diameter.assign(count, d);
+  g.id.resize(count);
+  std::iota(g.id.begin(), g.id.end(), 0);
+  const Coupler coupler(params, pair.solver, {d, 2650, 0.5, nu, count, 1});
+  const double common = 1e-4, response = (2650 + 0.5 * rho) * base::sphere_volume(d) / common;
+  g.fluid.beta.assign(count, common);
+  EXPECT_NEAR(coupler.step_limit(g), step_over_response * response, 1e-12 * response);
+  g.fluid.beta[700] = 20 * common;
+  EXPECT_NEAR(coupler.step_limit(g), step_over_response * response, 1e-12 * response) << "one is passed over";
+  g.fluid.beta[3] = 10 * common;
+  EXPECT_NEAR(coupler.step_limit(g), step_over_response * response / 10, 1e-12 * response) << "two are not";
 }
 
 TEST(coupler, finds_the_solid_volume_of_the_grains_in_the_cells) {

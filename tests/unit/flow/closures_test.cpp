@@ -21,8 +21,8 @@ Local log_layer(bool omega) {
 double net(const Rates& r, double c) { return r.gain - r.decay * c; }
 
 TEST(closures, production_meets_dissipation_in_a_log_layer) {
-  for (const ClosureLaw& law :
-       {ClosureLaw{StandardKEpsilon{}}, ClosureLaw{RealizableKEpsilon{}}, ClosureLaw{KOmegaSst{}}})
+  for (const ClosureLaw& law : {ClosureLaw{StandardKEpsilon{}}, ClosureLaw{RealizableKEpsilon{}}, ClosureLaw{KOmega{}},
+                                ClosureLaw{KOmegaSst{}}})
     std::visit(
         [](const auto& closure) {
           const Local a = log_layer(closure.transports_omega);
@@ -45,6 +45,30 @@ TEST(closures, second_equation_balances_diffusion_in_a_log_layer) {
   const KOmegaSst sst;
   const Local b = log_layer(true);
   EXPECT_NEAR(-net(sst.e(b), b.e) / (sst.diffusion_e(1) * kappa * u_star * b.e / y), 1, 0.02);
+  // Wilcox's constants give kappa = 0.40.
+  const KOmega wilcox;
+  EXPECT_NEAR(-net(wilcox.e(b), b.e) / (wilcox.diffusion_e(1) * kappa * u_star * b.e / y), base::square(0.4 / kappa),
+              0.01);
+}
+
+TEST(k_omega, bounds_the_stress_but_not_what_spreads_k) {
+  const KOmega law;
+  const double k = 0.01, omega = 20;
+  for (double S : {1.0, 5.0, 6.8, 6.9, 30.0, 1000.0}) {
+    const double nut = law.eddy_viscosity(k, omega, S * S, y, nu);
+    EXPECT_NEAR(nut * S / k, std::min(S / omega, 0.3 / 0.875), 1e-12) << S;
+    const Local a{k, omega, nut, S * S, 0, 0};
+    EXPECT_NEAR(nut * law.diffusion_k(law.blend(a, y, nu)), 0.6 * k / omega, 1e-12) << S;
+    EXPECT_NEAR(nut * law.diffusion_e(law.blend(a, y, nu)), 0.5 * k / omega, 1e-12) << S;
+  }
+}
+
+TEST(k_omega, diffuses_across_only_where_k_and_omega_rise_together) {
+  const KOmega law;
+  Local a{0.01, 20, 0, 0, 3.0, 1};
+  EXPECT_DOUBLE_EQ(law.e(a).gain, 0.125 * 3.0 / 20);
+  a.cross = -3.0;
+  EXPECT_EQ(law.e(a).gain, 0);
 }
 
 TEST(realizable, is_the_standard_model_where_the_strain_is_small) {
@@ -165,7 +189,8 @@ TEST_P(AnyClosure, stays_positive_in_steps_of_any_length) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(closures, AnyClosure,
-                         ::testing::Values(Closure::k_epsilon, Closure::k_epsilon_realizable, Closure::k_omega_sst));
+                         ::testing::Values(Closure::k_epsilon, Closure::k_epsilon_realizable, Closure::k_omega,
+                                           Closure::k_omega_sst));
 
 }  // namespace
 }  // namespace livebed::flow

@@ -60,18 +60,24 @@ Channel run(Closure closure, double re, double first, double growth, double ks =
   return c;
 }
 
-TEST(sst, shear_does_not_depend_on_where_the_first_cell_lies) {
+class DownToTheWall : public ::testing::TestWithParam<Closure> {};
+
+TEST_P(DownToTheWall, shear_does_not_depend_on_where_the_first_cell_lies) {
   // From the viscous layer (y+ = 0.5) through the buffer layer to the log layer.  Dean (1978): cf = 0.073 (2
   // Re_b)^-1/4.
   for (double y_plus : {0.5, 5.0, 10.0, 20.0, 50.0}) {
-    const Channel c = run(Closure::k_omega_sst, 590, 2 * y_plus * depth / 590, y_plus < 3 ? 1.1 : 1.0);
+    const Channel c = run(GetParam(), 590, 2 * y_plus * depth / 590, y_plus < 3 ? 1.1 : 1.0);
     const double dean = std::sqrt(2 / (0.073 * std::pow(2 * c.bulk_plus() * c.u_star() * depth / nu, -0.25)));
-    std::printf("SST: y+ %.2f: %d cells, u*/u*(log law) %.4f, bulk U+ %.3f (Dean %.3f)\n", c.y_plus(0),
-                c.flow.mesh().ny, c.u_star() * depth / nu / c.re, c.bulk_plus(), dean);
-    EXPECT_NEAR(c.u_star() * depth / nu / c.re, 1.01, 0.035) << y_plus;
+    std::printf("y+ %.2f: %d cells, u*/u*(log law) %.4f, bulk U+ %.3f (Dean %.3f)\n", c.y_plus(0), c.flow.mesh().ny,
+                c.u_star() * depth / nu / c.re, c.bulk_plus(), dean);
+    // Wilcox's model lets the buffer layer slip a little more than Menter's: 1 % less friction where it is resolved.
+    const double middle = GetParam() == Closure::k_omega ? 1.0 : 1.01;
+    EXPECT_NEAR(c.u_star() * depth / nu / c.re, middle, 0.035) << y_plus;
     EXPECT_NEAR(c.bulk_plus() / dean, 1.0, 0.05) << y_plus;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(closures, DownToTheWall, ::testing::Values(Closure::k_omega, Closure::k_omega_sst));
 
 TEST(sst, resolves_the_viscous_and_buffer_layers) {
   // Kim, Moin and Moser (1987), Re_tau 180: U+ 4.9 at y+ 5, 9.3 at 12, 13.4 at 30 and 18.2 in the middle.
@@ -85,7 +91,7 @@ TEST(sst, resolves_the_viscous_and_buffer_layers) {
 }
 
 TEST(closures, follow_the_log_law_over_smooth_and_rough_beds) {
-  for (Closure closure : {Closure::k_epsilon, Closure::k_epsilon_realizable, Closure::k_omega_sst})
+  for (Closure closure : {Closure::k_epsilon, Closure::k_epsilon_realizable, Closure::k_omega, Closure::k_omega_sst})
     for (double ks : {0.0, 0.1 * depth}) {
       const Channel c = run(closure, 2000, depth / 20, 1.0, ks);
       const double z0 = ks > 0 ? ks / 30 : nu / (smooth_E * c.u_star());
@@ -95,8 +101,8 @@ TEST(closures, follow_the_log_law_over_smooth_and_rough_beds) {
       std::printf("closure %d, ks %.4f m: U+ off the log law %.3f, u* %.4f\n", static_cast<int>(closure), ks, worst,
                   c.u_star() * depth / nu / c.re);
       // k-epsilon has kappa = 0.433 in its own log layer and Van Driest's damping in the first cell.
-      EXPECT_NEAR(worst, closure == Closure::k_omega_sst ? 0.35 : 0.95, 0.15);
-      EXPECT_NEAR(c.u_star() * depth / nu / c.re, closure == Closure::k_omega_sst ? 0.99 : 0.94, 0.03);
+      EXPECT_NEAR(worst, transports_omega(closure) ? 0.35 : 0.95, 0.15);
+      EXPECT_NEAR(c.u_star() * depth / nu / c.re, transports_omega(closure) ? 0.99 : 0.94, 0.03);
     }
 }
 
