@@ -170,6 +170,7 @@ void Coupler::unsettle_surface(grains::State& g) {
     ids.push_back(g.id[k]);
   }
   add_still(ids, -1);
+  voids_filled_ = false;  // nor is the void fraction around them
 }
 
 template <class Rests>
