@@ -68,7 +68,8 @@ const Bad bad_cases[] = {
      "level)"},
     // types
     {"number_for_word", "[flow]\nclosure = 3\n",
-     "bad.toml:4: flow.closure = 3 is a number; one of k_epsilon, k_epsilon_realizable, k_omega, k_omega_sst, laminar is "
+     "bad.toml:4: flow.closure = 3 is a number; one of k_epsilon, k_epsilon_realizable, k_omega, k_omega_sst, laminar "
+     "is "
      "expected"},
     {"array_for_number", "[flow]\ncourant = [0.5]\n",
      "bad.toml:4: flow.courant = [...] is an array; a pure number (or %) is expected"},
@@ -83,7 +84,8 @@ const Bad bad_cases[] = {
     {"string_for_count", "[bed]\nseed = \"1\"\n",
      "bad.toml:4: bed.seed = \"1\" is a string; a whole number is expected"},
     {"word_misspelt", "[flow]\nclosure = \"k-epsilon\"\n",
-     "bad.toml:4: flow.closure = \"k-epsilon\" is not one of k_epsilon, k_epsilon_realizable, k_omega, k_omega_sst, laminar; "
+     "bad.toml:4: flow.closure = \"k-epsilon\" is not one of k_epsilon, k_epsilon_realizable, k_omega, k_omega_sst, "
+     "laminar; "
      "did you mean k_epsilon?"},
     {"word_with_underscore", "[coupling]\nmode = \"two_way\"\n",
      "bad.toml:4: coupling.mode = \"two_way\" is not one of none, one-way, two-way; did you mean two-way?"},
