@@ -2,30 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/curves.hpp"
 #include "base/fault.hpp"
 #include "base/math.hpp"
-#include "case/check.hpp"
 #include "case/read.hpp"
 #include "case/resolved.hpp"
-#include "io/file.hpp"
 #include "io/table.hpp"
 #include "report/references.hpp"
-#include "run/bed_cache.hpp"
-#include "run/checkpoint.hpp"
 #include "run/execute.hpp"
 #include "validate/picture.hpp"
 #include "validate/references.hpp"
+#include "validate/scour_runs.hpp"
 
 namespace livebed::validate {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double plateau_of_mao = 0.91;
 const std::vector<std::string> colours = {"#1f77b4", "#d62728", "#2ca02c"};
@@ -38,87 +31,6 @@ struct Experiment {
   std::vector<std::string> keys{};  ///< what differs from the case
 };
 
-/// What a run left: depth and bed lines in time.
-struct Scour {
-  unsigned seed = 0;
-  casefile::Case resolved;
-  std::string commit;
-  double wall = 0;
-  std::vector<double> t, depth;            ///< [s], S/D
-  std::vector<double> x, t_lines;          ///< from the pipe's centre [D], [s]
-  std::vector<std::vector<double>> lines;  ///< over the original bed [D]
-};
-
-/// Throws Fault (input or output) when the folder holds a run of another case; another end is none.
-void check_same_case(const casefile::Case& wanted, const fs::path& folder) {
-  const casefile::Case kept = casefile::read_case(folder / "case.resolved.toml");
-  casefile::Case same = wanted;
-  same.time.end = kept.time.end;
-  casefile::derive_at_level(same, kept.grains.count, kept.bed_thickness);
-  if (casefile::hash(same) != casefile::hash(kept))
-    base::fail(base::Exit::input_output,
-               "{} holds a run of another case than this program's (compare its case.resolved.toml); move it away, and "
-               "the same command makes the run anew",
-               folder.string());
-}
-
-/// Runs or resumes what is missing, until a signal.
-void finish(const casefile::Case& c, const fs::path& folder, const Tell& tell) {
-  run::Options options;
-  options.bed_cache = run::default_bed_cache();
-  options.say = tell;
-  double told = -1;
-  options.progress = [&](double t, double end, double depth, double speed, double left) {
-    if (t < told + 0.01 * end) return;
-    told = t;
-    tell(fmt::format("{}: t = {:.2f} of {:.2f} s, S/D = {:.3f}, {:.2g} s/s, {:.1f} h left", folder.filename().string(),
-                     t, end, depth, speed, left / 3600));
-  };
-  base::Exit exit = base::Exit::ok;
-  if (run::list_checkpoints(folder).empty()) {
-    fs::remove_all(folder);  // stopped while its grains settled
-    try {
-      exit = run::execute(c, folder, options);
-    } catch (const base::Fault& fault) {
-      if (fault.code() != base::Exit::signal) throw;
-      exit = fault.code();
-    }
-  } else {
-    check_same_case(c, folder);
-    const fs::path summary = folder / "summary.json";
-    const bool ended =
-        fs::exists(summary) && nlohmann::json::parse(io::read_file(summary)).value("time_s", -1.0) >= c.time.end;
-    if (!ended) exit = run::resume(folder, c.time.end, options);
-  }
-  if (exit == base::Exit::signal)
-    tell(fmt::format("{} was stopped before its end: this is what there is so far; the same command goes on with it",
-                     folder.string()));
-}
-
-Scour read(const casefile::Case& c, const fs::path& folder, unsigned seed) {
-  Scour s;
-  s.seed = seed;
-  s.resolved = casefile::read_case(folder / "case.resolved.toml");
-  const nlohmann::json summary = nlohmann::json::parse(io::read_file(folder / "summary.json"));
-  s.commit = summary.value("commit", ""), s.wall = summary.value("wall_s", 0.0);
-  const io::Table series = io::read_table(folder / "series.csv"), bed = io::read_table(folder / "bed.csv");
-  s.t = series.column("time_s"), s.depth = series.column("S_over_D");
-  s.t_lines = bed.column("time_s");
-  const double D = c.flow.pipe.diameter;
-  std::vector<const std::vector<double>*> columns;
-  for (const std::string& name : bed.names)
-    if (name.starts_with("y_at_")) {
-      s.x.push_back((std::stod(name.substr(5)) - c.flow.pipe.x) / D);
-      columns.push_back(&bed.column(name));
-    }
-  for (std::size_t n = 0; n < s.t_lines.size(); ++n) {
-    std::vector<double> line;
-    for (const std::vector<double>* column : columns) line.push_back(((*column)[n] - s.resolved.bed_thickness) / D);
-    s.lines.push_back(std::move(line));
-  }
-  return s;
-}
-
 /// Time-weighted rms of the difference to a reference over [from, to] in its own times; NaN where the run is shorter.
 double depth_rms(const Scour& s, double unit, const std::vector<double>& t, const std::vector<double>& depth,
                  double from, double to) {
@@ -130,27 +42,6 @@ double depth_rms(const Scour& s, double unit, const std::vector<double>& t, cons
     sum += base::square(base::interpolate(s.t, s.depth, at * unit) - base::interpolate(t, depth, at)) / samples;
   }
   return std::sqrt(sum);
-}
-
-/// When S first reaches 63.2 % of a plateau [s]; NaN when it never does.
-double rise_time(const Scour& s, double plateau) {
-  for (std::size_t n = 0; n < s.t.size(); ++n)
-    if (s.depth[n] >= (1 - std::exp(-1.0)) * plateau) return s.t[n];
-  return std::nan("");
-}
-
-double mean_between(const Scour& s, double from, double to) {
-  double sum = 0;
-  int n = 0;
-  for (std::size_t k = 0; k < s.t.size(); ++k)
-    if (s.t[k] >= from && s.t[k] <= to) sum += s.depth[k], ++n;
-  return n > 0 ? sum / n : std::nan("");
-}
-
-const std::vector<double>& line_at(const Scour& s, double t) {
-  const auto nearest = std::min_element(s.t_lines.begin(), s.t_lines.end(),
-                                        [t](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
-  return s.lines[nearest - s.t_lines.begin()];
 }
 
 /// Points of a reference table at a time.
@@ -167,26 +58,25 @@ Profile profile_of_mao(double t) {
 }
 
 std::string csv_of_depths(const std::vector<Scour>& all) {
-  std::string text = "# S/D in time; each seed with the commit and the hash of its resolved case\n";
-  for (const Scour& s : all)
-    text += fmt::format("# seed {}: commit {}, case {}\n", s.seed, s.commit, casefile::hash(s.resolved));
+  std::string text = "# S/D in time; each seed with the commit and the hash of its resolved case\n" + runs_told(all);
   text += "seed,t_s,S_over_D\n";
   for (const Scour& s : all)
     for (std::size_t n = 0; n < s.t.size(); ++n) text += fmt::format("{},{:.4f},{:.5f}\n", s.seed, s.t[n], s.depth[n]);
   return text;
 }
 
-std::string csv_of_profiles(const std::vector<Scour>& all) {
-  std::string text = "# bed lines over the original bed at every second; x from the pipe's centre\n";
-  for (const Scour& s : all)
-    text += fmt::format("# seed {}: commit {}, case {}\n", s.seed, s.commit, casefile::hash(s.resolved));
+/// Bed lines `every` so many seconds of the run.
+std::string csv_of_profiles(const std::vector<Scour>& all, double every) {
+  std::string text =
+      fmt::format("# bed lines over the original bed every {:.5g} s; x from the pipe's centre\n", every) +
+      runs_told(all);
   text += "seed,t_s,x_D,y_bed_D\n";
   for (const Scour& s : all)
-    for (int t = 0; t <= static_cast<int>(s.t_lines.back() + 1e-6); ++t) {
-      const std::vector<double>& line = line_at(s, t);
+    for (int k = 0; k * every <= s.t_lines.back() + 1e-6; ++k) {
+      const std::vector<double>& line = line_at(s, k * every);
       // Lines are sampled at half a grain; every fifth tells as much.
       for (std::size_t n = 0; n < s.x.size(); n += 5)
-        text += fmt::format("{},{},{:.4f},{:.4f}\n", s.seed, t, s.x[n], line[n]);
+        text += fmt::format("{},{:.5g},{:.4f},{:.4f}\n", s.seed, k * every, s.x[n], line[n]);
     }
   return text;
 }
@@ -199,11 +89,8 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
     keys.push_back(fmt::format("bed.seed={}", seed));
     if (e.ends[seed - 1] > 0) keys.push_back(fmt::format("time.end={}", e.ends[seed - 1]));
     const casefile::Case c = casefile::read_text(e.text, e.name, keys);
-    const fs::path folder = fs::path(kept_scours) / fmt::format("{}-seed{}", e.name, seed);
-    if (run::stop_signal() == 0) finish(c, folder, tell);
-    if (!fs::exists(folder / "summary.json")) continue;
-    Scour s = read(c, folder, seed);
-    if (!s.t.empty() && !s.t_lines.empty()) all.push_back(std::move(s));  // else stopped before the grains were let go
+    const std::string folder = fmt::format("{}/{}-seed{}", kept_scours, e.name, seed);
+    if (auto kept = scour(c, folder, tell)) all.push_back(std::move(*kept));
   }
   if (all.empty()) base::fail(base::Exit::signal, "stopped before the grains of any seed of {} were let go", e.name);
   const io::Table measured = io::parse_table(report::mao_depth, "mao1986_livebed_depth.csv");
@@ -231,10 +118,11 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
         "Mao (1986), 42 points; a two-phase k-epsilon model: 0.104");
     add(s, fmt::format("{}rms of S/D over 1 to 12 s", when), depth_rms(s, unit, t, depth, 1, 12), "-", none, none,
         "Mao (1986)");
-    add(s, fmt::format("{}mean S/D over 30 to 37 s", when), mean_between(s, 30 * unit, 37 * unit), "-",
+    add(s, fmt::format("{}mean S/D over 30 to 37 s", when), mean_depth(s, 30 * unit, 37 * unit), "-",
         plateau_of_mao - 0.1, plateau_of_mao + 0.1, "Mao (1986): plateau 0.91");
-    add(s, fmt::format("{}time to 63 % of Mao's plateau", when), rise_time(s, plateau_of_mao) / unit, "s", 11.06 * 0.85,
-        11.06 * 1.15, "Mao (1986): 11.06 s");
+    add(s, fmt::format("{}time to 63 % of Mao's plateau", when),
+        first_time(s, (1 - std::exp(-1.0)) * plateau_of_mao) / unit, "s", 11.06 * 0.85, 11.06 * 1.15,
+        "Mao (1986): 11.06 s");
     for (double at : report::mao_profile_times) {
       if (s.t.back() < at * unit) continue;
       const Profile p = profile_of_mao(at);
@@ -270,21 +158,41 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
   }
   result.pictures.push_back({e.name + "-profiles.svg", panels(panels_of, 1)});
   result.pictures.push_back({e.name + "-depth.csv", csv_of_depths(all)});
-  result.pictures.push_back({e.name + "-profiles.csv", csv_of_profiles(all)});
+  result.pictures.push_back({e.name + "-profiles.csv", csv_of_profiles(all, unit)});
   return result;
+}
+
+/// cases/mao with other grains and the times of its course scaled with T.
+Experiment other_grains(std::string name, std::vector<std::string> keys, int seeds) {
+  return {std::move(name), mao_case, std::vector<double>(seeds, 0.0), true, std::move(keys)};
 }
 
 }  // namespace
 
 Result mao(const Tell& tell) { return hold_against_mao({"mao", mao_case, {0, 12, 12}}, tell); }
+Result mao_07mm(const Tell& tell) {
+  return hold_against_mao(
+      other_grains("mao-0.7mm",
+                   {"grains.diameter=0.7 mm", "mesh.cell_y=0.42 mm", "bed.pieces=3", "time.grain_step=1.4e-5",
+                    "time.spin_up=2", "time.end=13.7", "current.rise=1.475"},
+                   3),
+      tell);
+}
 Result mao_1mm(const Tell& tell) {
-  return hold_against_mao({"mao-1mm",
-                           mao_case,
-                           {0, 0, 0},
-                           true,
-                           {"grains.diameter=1 mm", "mesh.cell_y=0.6 mm", "bed.pieces=1", "time.grain_step=2e-5",
-                            "time.spin_up=1.5", "time.end=8.1", "current.rise=0.86"}},
-                          tell);
+  return hold_against_mao(
+      other_grains("mao-1mm",
+                   {"grains.diameter=1 mm", "mesh.cell_y=0.6 mm", "bed.pieces=1", "time.grain_step=2e-5",
+                    "time.spin_up=1.5", "time.end=8.1", "current.rise=0.86"},
+                   3),
+      tell);
+}
+Result mao_2mm(const Tell& tell) {
+  return hold_against_mao(
+      other_grains("mao-2mm-livebed",
+                   {"grains.diameter=2 mm", "mesh.cell_y=1.2 mm", "bed.pieces=1", "time.grain_step=4e-5",
+                    "time.spin_up=1.5", "time.end=2.85", "current.rise=0.307"},
+                   3),
+      tell);
 }
 Result mao_paper(const Tell& tell) { return hold_against_mao({"mao-2mm", mao_paper_case, {0, 0, 0}, true}, tell); }
 

@@ -10,8 +10,10 @@ inline constexpr const char* kept_scours = "runs/validate/mao";
 /// that are not at their end are made or resumed; stopped by a signal, they go on at the next call and what
 /// there is so far is told.  Throws Fault (signal) when that is nothing, and what a run throws.
 Result mao(const Tell& tell);
-/// The same with grains of 1 mm, between the sand and the paper's grains, and the sand's own physics: t/T against t/T.
+/// The same with larger grains and the sand's own physics, three seeds: t/T against t/T.
+Result mao_07mm(const Tell& tell);
 Result mao_1mm(const Tell& tell);
+Result mao_2mm(const Tell& tell);
 /// The same with grains of 2 mm as the paper has them, preset mbs2d: t/T against t/T.
 Result mao_paper(const Tell& tell);
 

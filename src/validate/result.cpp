@@ -10,6 +10,7 @@
 #include "validate/cavity.hpp"
 #include "validate/channel.hpp"
 #include "validate/cylinder.hpp"
+#include "validate/design_chart.hpp"
 #include "validate/duct.hpp"
 #include "validate/grains.hpp"
 #include "validate/mao.hpp"
@@ -44,7 +45,11 @@ const std::vector<Case>& cases() {
       {"sheet-flow", "sheet flow of Revil-Baudard et al. (2015): speed and solid fraction over the height", sheet_flow},
       {"mao", "live-bed scour of Mao (1986), his sand of 0.36 mm, in seconds: depth in time, bed profiles; hours", mao},
       {"mao-1mm", "the same with grains of 1 mm on a deep bed, time scaled", mao_1mm},
+      {"mao-0.7mm", "the same with grains of 0.7 mm", mao_07mm},
+      {"mao-2mm-livebed", "the same with grains of 2 mm: cases/mao, not the paper's model", mao_2mm},
       {"mao-2mm", "the same with the paper's grains of 2 mm, time scaled: Figures 11 and 12", mao_paper},
+      {"design-chart", "live-bed scour over gap and Shields number: depth and time scale against formulas; hours",
+       design_chart},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},
       {"oner-layer", "a laminar boundary layer on the pipe beside a turbulent one", oner_layer},
       {"oner-depth", "what sets its Strouhal number: depth, approach profile, scheme, grid", oner_depth},

@@ -1,0 +1,228 @@
+#include "validate/design_chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "base/approach.hpp"
+#include "base/fault.hpp"
+#include "base/sediment.hpp"
+#include "case/expected.hpp"
+#include "case/read.hpp"
+#include "case/resolved.hpp"
+#include "run/execute.hpp"
+#include "validate/picture.hpp"
+#include "validate/references.hpp"
+#include "validate/scour_runs.hpp"
+
+namespace livebed::validate {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double scatter = 0.2;           ///< of experiments in S/D, one standard deviation (Sumer and Fredsoe 2002)
+constexpr double length_over_T = 6;       ///< of a run
+constexpr double rise_over_T = 4 / 11.5;  ///< of the current, as in cases/mao
+constexpr int seeds = 2;
+const std::vector<double> gaps = {0, 0.1, 0.3, 0.5, 1.0};          ///< e/D, at theta_of_gaps
+const std::vector<double> currents = {0.1, 0.2, 0.33, 0.45, 0.6};  ///< theta, at e/D = 0
+constexpr double theta_of_gaps = 0.33;
+const std::vector<std::string> colours = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e"};
+
+/// A run and what a chart takes from it.
+struct Point {
+  Scour run;
+  double gap = 0, theta = 0;
+  double T = 0;           ///< by the formula [s]
+  double S = 0;           ///< S/D, mean of the last 2 T
+  double change = 0;      ///< of it from the first to the second of them
+  double fitted_T = nan;  ///< of S_eq (1 - exp(-t/T)) [s]
+};
+
+/// cases/mao with grains of 2 mm; all pipes among fine cells.  Times follow T and the passage of the water.
+casefile::Case case_of(double gap, double theta, unsigned seed) {
+  std::vector<std::string> keys = {"grains.diameter=2 mm",
+                                   "mesh.cell_y=1.2 mm",
+                                   "mesh.fine_y_to=0.212",
+                                   "bed.pieces=1",
+                                   "time.grain_step=4e-5",
+                                   fmt::format("pipe.gap_ratio={}", gap),
+                                   fmt::format("current.theta={}", theta),
+                                   fmt::format("bed.seed={}", seed)};
+  const casefile::Case at = casefile::read_text(mao_case, "design-chart", keys);
+  const double T = at.time_scale, passage = at.flow.mesh.length / at.flow.current.mean_speed;
+  keys.push_back(fmt::format("time.end={:.4g}", length_over_T * T));
+  keys.push_back(fmt::format("current.rise={:.4g}", rise_over_T * T));
+  keys.push_back(fmt::format("time.spin_up={:.4g}", 4 * passage));
+  keys.push_back(fmt::format("output.series_every={:.4g}", 0.01 * T));
+  keys.push_back(fmt::format("output.bed_every={:.4g}", 0.05 * T));
+  keys.push_back(fmt::format("output.fields_every={:.4g}", T));
+  return casefile::read_text(mao_case, "design-chart", keys);
+}
+
+Point point_of(Scour run, double gap, double theta) {
+  Point p;
+  p.gap = gap, p.theta = theta, p.T = run.resolved.time_scale;
+  const double end = run.t.back();
+  p.S = mean_depth(run, end - 2 * p.T, end);
+  p.change = mean_depth(run, end - p.T, end) - mean_depth(run, end - 2 * p.T, end - p.T);
+  if (const auto fit = base::fit_approach(run.t, run.depth)) p.fitted_T = fit->T;
+  p.run = std::move(run);
+  return p;
+}
+
+/// Exponent of T* over theta by least squares of the logarithms; NaN with fewer than three currents.
+double exponent_of_time(const std::vector<Point>& points) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const Point& p : points) {
+    if (p.gap != 0 || !(p.fitted_T > 0)) continue;
+    const double X = std::log(p.theta), Y = std::log(p.fitted_T);
+    n += 1, x += X, y += Y, xx += X * X, xy += X * Y;
+  }
+  const double spread = n * xx - x * x;
+  return n > 2 && spread > 0 ? (n * xy - x * y) / spread : nan;
+}
+
+std::string table_of(const std::vector<Point>& points) {
+  std::string text =
+      "# live-bed scour under a pipe of 5 cm, grains of 2 mm; S/D: mean of the last 2 T; T by the formula of Fredsoe, "
+      "Sumer and Arnskov (1992); T_fit: of S_eq (1 - exp(-t/T))\n"
+      "e_over_D,theta,seed,commit,case,end_over_T,S_over_D,change_over_D,T_s,T_fit_s\n";
+  for (const Point& p : points)
+    text +=
+        fmt::format("{},{},{},{},{},{:.3g},{:.4f},{:+.4f},{:.4g},{:.4g}\n", p.gap, p.theta, p.run.seed, p.run.commit,
+                    casefile::hash(p.run.resolved), p.run.t.back() / p.T, p.S, p.change, p.T, p.fitted_T);
+  return text;
+}
+
+std::string course_of(const std::vector<Point>& points) {
+  std::string text = "# S/D in time, means of a twentieth of T\ne_over_D,theta,seed,t_over_T,S_over_D\n";
+  for (const Point& p : points)
+    for (double t = 0; t <= p.run.t.back(); t += 0.05 * p.T)
+      text += fmt::format("{},{},{},{:.2f},{:.4f}\n", p.gap, p.theta, p.run.seed, t / p.T,
+                          mean_depth(p.run, t - 0.025 * p.T, t + 0.025 * p.T));
+  return text;
+}
+
+/// Steps from `from` to `to`.
+std::vector<double> line(double from, double to, int steps = 60) {
+  std::vector<double> x;
+  for (int n = 0; n <= steps; ++n) x.push_back(from + (to - from) * n / steps);
+  return x;
+}
+
+/// A formula with the scatter of experiments, and the runs as points.
+report::Chart depth_chart(report::Axis x, const std::vector<double>& at, const std::vector<double>& formula) {
+  report::Chart chart{std::move(x), {"S/D at the end", 0, 1.2}, {}};
+  report::Band band{"one standard deviation of experiments", "#dddddd", at, {}, {}};
+  for (double S : formula) band.low.push_back(S - scatter), band.high.push_back(S + scatter);
+  chart.bands.push_back(band);
+  chart.curves.push_back({"formula", "#000000", at, formula});
+  return chart;
+}
+
+void add_points(report::Chart& chart, const std::vector<Point>& points, const std::vector<double>& x,
+                const std::vector<double>& y) {
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    report::Curve dots{fmt::format("Livebed, seed {}", seed), colours[seed - 1], {}, {}, true};
+    for (std::size_t n = 0; n < points.size(); ++n)
+      if (points[n].run.seed == seed) dots.x.push_back(x[n]), dots.y.push_back(y[n]);
+    chart.curves.push_back(std::move(dots));
+  }
+}
+
+std::string figure_of(const std::vector<Point>& all) {
+  std::vector<Point> by_gap, by_current;
+  for (const Point& p : all) {
+    if (p.theta == theta_of_gaps) by_gap.push_back(p);
+    if (p.gap == 0) by_current.push_back(p);
+  }
+  const auto values = [](const std::vector<Point>& of, double Point::*what) {
+    std::vector<double> y;
+    for (const Point& p : of) y.push_back(p.*what);
+    return y;
+  };
+  std::vector<double> e = line(0, 1.2), S_of_e, theta = line(0.08, 0.7), law, S_of_theta;
+  for (double g : e) S_of_e.push_back(base::equilibrium_depth(std::max(g, 1e-9))->over_D);
+  for (double t : theta) {
+    S_of_theta.push_back(base::equilibrium_depth(0)->over_D);
+    law.push_back(std::pow(t, -5.0 / 3) / 50);
+  }
+  report::Chart gap_chart = depth_chart({"e/D", 0, 1.2}, e, S_of_e);
+  add_points(gap_chart, by_gap, values(by_gap, &Point::gap), values(by_gap, &Point::S));
+  report::Chart current_chart = depth_chart({"theta", 0, 0.7}, theta, S_of_theta);
+  add_points(current_chart, by_current, values(by_current, &Point::theta), values(by_current, &Point::S));
+
+  report::Chart time_chart{{"theta", 0, 0.7}, {"T*", nan, nan, true}, {}};
+  time_chart.curves.push_back({"theta^(-5/3)/50", "#000000", theta, law});
+  std::vector<double> T_star;
+  for (const Point& p : by_current) T_star.push_back(p.fitted_T / p.T * std::pow(p.theta, -5.0 / 3) / 50);
+  add_points(time_chart, by_current, values(by_current, &Point::theta), T_star);
+
+  report::Chart course{{"t/T", 0, length_over_T}, {"S/D", 0, 1.2}, {}};
+  course.curves.push_back({"0.6 (1 - exp(-t/T))", "#000000", line(0, length_over_T), {}});
+  for (double t : course.curves.front().x) course.curves.front().y.push_back(0.6 * (1 - std::exp(-t)));
+  for (const Point& p : by_current) {
+    if (p.run.seed != 1) continue;
+    const auto n = std::find(currents.begin(), currents.end(), p.theta) - currents.begin();
+    report::Curve curve{fmt::format("theta {}", p.theta), colours[n], {}, p.run.depth};
+    for (double t : p.run.t) curve.x.push_back(t / p.T);
+    course.curves.push_back(std::move(curve));
+  }
+  return panels({{"depth over gap, theta 0.33", gap_chart},
+                 {"depth over current, e/D 0", current_chart},
+                 {"time scale over current, e/D 0", time_chart},
+                 {"course of the depth, e/D 0, seed 1", course}},
+                2);
+}
+
+}  // namespace
+
+Result design_chart(const Tell& tell) {
+  run::obey_signals();
+  std::vector<Point> points;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    const auto take = [&](double gap, double theta) {
+      const std::string folder = fmt::format("{}/e{}-theta{}-seed{}", kept_chart, gap, theta, seed);
+      if (auto run = scour(case_of(gap, theta, seed), folder, tell))
+        points.push_back(point_of(std::move(*run), gap, theta));
+    };
+    for (double gap : gaps) take(gap, theta_of_gaps);
+    for (double theta : currents)
+      if (theta != theta_of_gaps) take(0, theta);
+  }
+  if (points.empty()) base::fail(base::Exit::signal, "stopped before the grains of any run were let go");
+
+  Result result;
+  for (const Point& p : points) {
+    const std::string name = fmt::format("e/D {}, theta {}, seed {}: ", p.gap, p.theta, p.run.seed);
+    const auto add = [&](const std::string& what, double value, const std::string& unit, double low, double high,
+                         const std::string& reference) {
+      Row row{name + what, value, unit};
+      row.low = low, row.high = high, row.reference = reference;
+      row.setup = fmt::format("case {}, {:.2f} T", casefile::hash(p.run.resolved), p.run.t.back() / p.T);
+      row.seconds = p.run.wall, row.commit = p.run.commit;
+      tell(fmt::format("{}: {:.4g} {}", row.name, value, unit));
+      result.rows.push_back(row);
+    };
+    const base::EquilibriumDepth wanted = *base::equilibrium_depth(p.gap);
+    // Judged only where the run has come to its end; the scatter is that of experiments where the pipe touches.
+    const bool ended = p.run.t.back() > 0.99 * length_over_T * p.T;
+    add("S/D over the last 2 T", p.S, "-", ended ? wanted.over_D - scatter : nan, ended ? wanted.over_D + scatter : nan,
+        fmt::format("{} ({})", wanted.formula, wanted.source));
+    add("change within them", p.change, "-", nan, nan, "");
+    add("fitted T over the formula's", p.fitted_T / p.T, "-", nan, nan, "Fredsoe, Sumer and Arnskov (1992)");
+  }
+  Row exponent{"exponent of T* over theta, e/D 0", exponent_of_time(points), "-"};
+  exponent.reference = "-5/3: Fredsoe, Sumer and Arnskov (1992)";
+  exponent.commit = points.front().run.commit;
+  tell(fmt::format("{}: {:.3g}", exponent.name, exponent.value));
+  result.rows.push_back(exponent);
+  result.pictures = {{"design-chart.svg", figure_of(points)},
+                     {"design-chart.csv", table_of(points)},
+                     {"design-chart-course.csv", course_of(points)}};
+  return result;
+}
+
+}  // namespace livebed::validate
