@@ -288,11 +288,10 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
                 most_cells_in_kernel * std::min(mesh.cell_x, mesh.cell_y) / d);
 
   keys({"coupling.turbulence", "coupling.dispersion", "flow.closure"})
-      .fault_if(
-          c.flow.closure == flow::Closure::laminar && (c.coupling.turbulence != coupling::Turbulence::untouched ||
-                                                       c.coupling.dispersion == coupling::Dispersion::random_walk),
-          "coupling.turbulence and coupling.dispersion need the turbulence that flow.closure = \"laminar\" has "
-          "not: give \"untouched\" and \"none\"");
+      .fault_if(c.flow.closure == flow::Closure::laminar && (c.coupling.turbulence != coupling::Turbulence::untouched ||
+                                                             c.coupling.dispersion != coupling::Dispersion::none),
+                "coupling.turbulence and coupling.dispersion need the turbulence that flow.closure = \"laminar\" has "
+                "not: give \"untouched\" and \"none\"");
   keys({"coupling.added_mass", "flow.algorithm"})
       .fault_if(c.coupling.added_mass == coupling::AddedMass::relative && c.flow.algorithm == flow::Algorithm::simple,
                 "coupling.added_mass = \"relative\" needs the acceleration of the water, which flow.algorithm = "

@@ -61,10 +61,12 @@ void add_coupling(std::vector<Row>& s) {
   s.push_back(real("coupling.room_power", "-", coupling(&C::room_power))
                   .within(0, 10)
                   .says("n of (1 - solid/packed)^n, by which a way through grains counts in that distance"));
-  s.push_back(word<coupling::Dispersion>(
-                  "coupling.dispersion", coupling(&C::dispersion),
-                  {{"none", coupling::Dispersion::none}, {"random_walk", coupling::Dispersion::random_walk}})
-                  .says("do grains feel a fluctuation of the modelled k?")
+  s.push_back(word<coupling::Dispersion>("coupling.dispersion", coupling(&C::dispersion),
+                                         {{"none", coupling::Dispersion::none},
+                                          {"random_walk", coupling::Dispersion::random_walk},
+                                          {"attached", coupling::Dispersion::attached}})
+                  .says("do grains feel a fluctuation of the modelled k?  attached: along the stream that of the "
+                        "strongest eddies that reach down to them")
                   .from("none"));
   s.push_back(real("coupling.dispersion_energy", "-", coupling(&C::dispersion_energy))
                   .above(0, 10)

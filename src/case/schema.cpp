@@ -66,9 +66,9 @@ const std::vector<Choice>& choices() {
                                         {"coupling.drag_infinity", "0.4", "1.27"},
                                         {"coupling.lift", "none", "saffman_mei"},
                                         {"coupling.turbulence", "untouched", "bounded"},
-                                        {"coupling.dispersion", "none", "random_walk"},
+                                        {"coupling.dispersion", "none", "attached"},
                                         {"coupling.room_power", "1", "3"},
-                                        {"coupling.dispersion_energy", "1", "1.8"},
+                                        {"coupling.dispersion_energy", "1", "1.5"},
                                         {"coupling.kernel", "2", "0.6"}};
   return rows;
 }

@@ -26,12 +26,11 @@ public:
   static constexpr double energy_along = 1.11, energy_across = 0.34;  ///< sigma^2 over k [-]
   static constexpr double viscous_time = 4.5;                         ///< least T_L over sqrt(nu/epsilon) [-]
 
-  /// What a grain's surroundings say.
+  /// The eddies that move the water in one direction.
   struct Eddy {
-    base::Vec2 stream;      ///< direction of the water, a unit vector
-    double k;               ///< [m2/s2]
-    base::Vec2 slope;       ///< gradient of sqrt(k) [1/s]
-    double time, response;  ///< T_L, response time of the grain [s]
+    double k;          ///< [m2/s2]
+    base::Vec2 slope;  ///< gradient of sqrt(k) [1/s]
+    double time;       ///< T_L [s]
   };
   /// T_L [s]; C_T [-], k [m2/s2], epsilon [m2/s3], nu [m2/s].
   static double life_time(double C_T, double k, double epsilon, double nu) {
@@ -39,8 +38,9 @@ public:
   }
   /// Comes before the grains of each step.
   void begin_step() { ++steps_; }
-  /// The fluctuation u' [m/s] that grain `id` feels in a step of dt [s].  Different grains may be asked about at once.
-  base::Vec2 advance(int id, double dt, const Eddy& e);
+  /// The fluctuation u' [m/s] that grain `id` feels in a step of dt [s] in water that streams in the direction of a
+  /// unit vector, along it and across it; response: of the grain [s].  Different grains may be asked about at once.
+  base::Vec2 advance(int id, double dt, base::Vec2 stream, const Eddy& along, const Eddy& across, double response);
 
   /// What a checkpoint must hold.
   template <class Self, class Visit>

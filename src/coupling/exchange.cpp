@@ -93,16 +93,18 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
   at_u_ = Transfer(flow::Staggering::west_faces(m), m.aperture_x, 1, nx_ - 1, reach_);
   at_v_ = Transfer(flow::Staggering::south_faces(m), m.aperture_y, 0, nx_ - 1, reach_);
   at_c_ = Transfer(centres, m.volume, 0, nx_ - 1, reach_);
-  if (params.dispersion == Dispersion::random_walk) eddies_ = Eddies(materials.grains, materials.seed);
+  if (params.dispersion != Dispersion::none) eddies_ = Eddies(materials.grains, materials.seed);
   for (grains::Array* a :
-       {&eddy_k_, &eddy_epsilon_, &eddy_u_, &eddy_v_, &slope_x_, &slope_y_, &rate_x_, &rate_y_, &vorticity_, &given_x_,
-        &given_y_, &before_u_, &before_v_, &still_x_, &still_y_, &still_beta_, &still_volume_, &still_damps_})
+       {&eddy_k_,   &eddy_epsilon_, &gust_k_,  &gust_time_,  &gust_slope_x_, &gust_slope_y_, &eddy_u_,  &eddy_v_,
+        &slope_x_,  &slope_y_,      &rate_x_,  &rate_y_,     &vorticity_,    &given_x_,      &given_y_, &before_u_,
+        &before_v_, &still_x_,      &still_y_, &still_beta_, &still_volume_, &still_damps_})
     a->assign(materials.grains, 0.0);
   voidage_.assign(materials.grains, 1.0);
   volume_c_ = Field(nx_, ny_);
   for (int j = 0; j < ny_; ++j)
     for (int i = 0; i < nx_; ++i) volume_c_(i, j) = slab_ * centres.volume(i, j);
-  for (Field* f : {&voids_, &slope_u_, &slope_v_, &rate_u_, &rate_v_, &curl_, &still_solid_, &still_beta_u_,
+  gusts_ = Gusts(nx_, ny_);
+  for (Field* f : {&voids_, &packed_, &slope_u_, &slope_v_, &rate_u_, &rate_v_, &curl_, &still_solid_, &still_beta_u_,
                    &still_beta_v_, &still_damping_})
     *f = Field(nx_, ny_);
 }
@@ -233,7 +235,8 @@ double Coupler::step_limit(const grains::State& g) const {
 }
 
 void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double interval) {
-  if (params_.voidage == Voidage::off && params_.drag == Drag::paper && params_.turbulence == Turbulence::untouched)
+  if (params_.voidage == Voidage::off && params_.drag == Drag::paper && params_.turbulence == Turbulence::untouched &&
+      params_.dispersion != Dispersion::attached)
     return;
   voids_filled_ = true;
   voids_ = still_solid_;
@@ -253,12 +256,23 @@ void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double inte
 void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt) {
   const flow::State& s = flow.state;
   const double* per_hx = flow.at_c().per_hx.data() + 2;
-  for_each_item(0, top_, [&](int j) {
-    const double *k = s.k.row(j), *below = s.k.row(std::max(j - 1, 0)), per_hy = flow.at_c().per_hy[j + 2];
-    double *along_x = slope_u_.row(j), *along_y = slope_v_.row(j);
-    vector_loop(1, nx_, [&](int i) { along_x[i] = (std::sqrt(k[i]) - std::sqrt(k[i - 1])) * per_hx[i]; });
-    vector_loop(0, nx_, [&](int i) { along_y[i] = (std::sqrt(k[i]) - std::sqrt(below[i])) * per_hy; });
-  });
+  const auto slopes_of = [&](const Field& energy) {
+    for_each_item(0, top_, [&](int j) {
+      const double *k = energy.row(j), *below = energy.row(std::max(j - 1, 0)), per_hy = flow.at_c().per_hy[j + 2];
+      double *along_x = slope_u_.row(j), *along_y = slope_v_.row(j);
+      vector_loop(1, nx_, [&](int i) { along_x[i] = (std::sqrt(k[i]) - std::sqrt(k[i - 1])) * per_hx[i]; });
+      vector_loop(0, nx_, [&](int i) { along_y[i] = (std::sqrt(k[i]) - std::sqrt(below[i])) * per_hy; });
+    });
+  };
+  const bool attached = params_.dispersion == Dispersion::attached;
+  if (attached) {
+    gusts_.fill(flow.mesh(), s, packed_, top_, params_.dispersion_time, viscosity_);
+    at_c_.gather(std::array<const Field*, 2>{&gusts_.k, &gusts_.time}, {&gust_k_, &gust_time_});
+    slopes_of(gusts_.k);
+    at_u_.gather(slope_u_, gust_slope_x_);
+    at_v_.gather(slope_v_, gust_slope_y_);
+  }
+  slopes_of(s.k);
   at_u_.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
   at_v_.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
   eddies_.begin_step();
@@ -268,9 +282,11 @@ void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt)
     const double speed = base::norm(water),
                  time = Eddies::life_time(params_.dispersion_time, eddy_k_[k], eddy_epsilon_[k], viscosity_);
     const base::Vec2 stream = speed > 0 ? (1.0 / speed) * water : base::Vec2{1, 0};
-    const base::Vec2 felt = eddies_.advance(
-        g.id[k], dt,
-        {stream, energy * eddy_k_[k], {size * slope_x_[k], size * slope_y_[k]}, time, response_time(g, k)});
+    const Eddies::Eddy across{energy * eddy_k_[k], {size * slope_x_[k], size * slope_y_[k]}, time};
+    const Eddies::Eddy along =
+        attached ? Eddies::Eddy{energy * gust_k_[k], {size * gust_slope_x_[k], size * gust_slope_y_[k]}, gust_time_[k]}
+                 : across;
+    const base::Vec2 felt = eddies_.advance(g.id[k], dt, stream, along, across, response_time(g, k));
     eddy_u_[k] = felt.x, eddy_v_[k] = felt.y;
   });
 }
@@ -299,7 +315,8 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   const int before = load.top;
   top_ = rows_with_grains(g);
   const bool damped = params_.turbulence == Turbulence::damped, bounded = params_.turbulence != Turbulence::untouched,
-             walks = params_.dispersion == Dispersion::random_walk;
+             walks = params_.dispersion != Dispersion::none;
+  if (bounded || params_.dispersion == Dispersion::attached) average_solid(flow.mesh());
   if (damped || walks) at_c_.gather(std::array<const Field*, 2>{&s.k, &s.epsilon}, {&eddy_k_, &eddy_epsilon_});
   if (walks && !held) {
     feel_eddies(g, flow, dt);
@@ -361,10 +378,10 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   });
 }
 
-void Coupler::average_solid(const flow::Mesh& m, Field& solid) {
+void Coupler::average_solid(const flow::Mesh& m) {
   const double reach = averaged_over * slab_;
   for_each_item(0, top_, [&](int j) {
-    double* mean = solid.row(j);
+    double* mean = packed_.row(j);
     double volume = 0, length = 0;
     for (int i = 0, first = 0, next = 0; i < nx_; ++i) {
       const double here = m.centre_x(i);
@@ -372,7 +389,7 @@ void Coupler::average_solid(const flow::Mesh& m, Field& solid) {
         volume += (1.0 - voids_(next, j)) * m.dx(next), length += m.dx(next);
       for (; first < i && m.centre_x(first) < here - reach; ++first)
         volume -= (1.0 - voids_(first, j)) * m.dx(first), length -= m.dx(first);
-      mean[i] = volume / length;
+      mean[i] = volume / length / packed_solid;
     }
   });
 }
@@ -380,20 +397,19 @@ void Coupler::average_solid(const flow::Mesh& m, Field& solid) {
 void Coupler::bound_eddies(const flow::Mesh& m, flow::Load& load) {
   // Shortest way through the cells, each step counting as much as it is free of grains: down to the packed bed from
   // the west and from below, then from the east and from above.
-  Field &way = slope_u_, &solid = slope_v_;
-  average_solid(m, solid);
+  Field& way = slope_u_;
   const auto counts = [&](double share) {
     if (share <= 0 || share >= 1) return share <= 0 ? 1.0 : 0.0;
     return std::pow(1.0 - share, params_.room_power);
   };
   const auto step = [&](double& here, int i, int j, int from_i, int from_j, double length) {
-    const double mean = 0.5 * (solid(i, j) + solid(from_i, from_j));
-    here = std::min(here, way(from_i, from_j) + length * counts(mean / packed_solid));
+    const double mean = 0.5 * (packed_(i, j) + packed_(from_i, from_j));
+    here = std::min(here, way(from_i, from_j) + length * counts(mean));
   };
   const double far = m.height();
   for (int j = 0; j < top_; ++j)
     for (int i = 0; i < nx_; ++i) {
-      double here = solid(i, j) > packed_share * packed_solid ? 0.0 : far;
+      double here = packed_(i, j) > packed_share ? 0.0 : far;
       if (here > 0 && j > 0) step(here, i, j, i, j - 1, m.dy_face(j));
       if (here > 0 && i > 0) step(here, i, j, i - 1, j, m.dx_face(i));
       way(i, j) = here;

@@ -4,6 +4,7 @@
 #include "base/vec2.hpp"
 #include "coupling/drag.hpp"
 #include "coupling/eddies.hpp"
+#include "coupling/gusts.hpp"
 #include "coupling/params.hpp"
 #include "coupling/transfer.hpp"
 #include "flow/advance.hpp"
@@ -108,7 +109,7 @@ public:
     visit("still_given_x", self.given_x_), visit("still_given_y", self.given_y_);
     visit("still_solid", self.still_solid_), visit("still_damping", self.still_damping_);
     visit("still_beta_u", self.still_beta_u_), visit("still_beta_v", self.still_beta_v_);
-    if (self.params_.dispersion == Dispersion::random_walk) Eddies::each_part(self.eddies_, visit);
+    if (self.params_.dispersion != Dispersion::none) Eddies::each_part(self.eddies_, visit);
   }
   void restore_ledger(const ImpulseLedger& ledger) { ledger_ = ledger; }
 
@@ -135,8 +136,9 @@ private:
   double given_to_still(const base::Field& beta, const base::Field& velocity, double dt) const;
   /// Velocity of the water and fluctuation at each grain.
   void feel_eddies(grains::State& g, const flow::Solver& flow, double dt);
-  /// solid <- solid fraction of each cell up to the topmost grain, averaged along the current [-].
-  void average_solid(const flow::Mesh& m, base::Field& solid);
+  /// packed_ <- solid fraction of each cell up to the topmost grain, averaged along the current, over that of a packed
+  /// bed.
+  void average_solid(const flow::Mesh& m);
   /// load.room <- distance of each cell up to the topmost grain from the packed bed, ways through grains counting less
   /// by what they fill (Li and Sawamoto 1995, Coastal Eng. Japan 38, 1: dl/dy = kappa (1 - solid/packed), here to a
   /// power).
@@ -160,11 +162,13 @@ private:
   base::Field owed_u_, owed_v_;  ///< impulse owed to the flow [N s]
   ImpulseLedger ledger_;
   Eddies eddies_;
+  Gusts gusts_;
 
   // Of each grain, in the order of the storage while the flow steps:
-  grains::Array voidage_;                ///< around it [-]
-  grains::Array eddy_k_, eddy_epsilon_;  ///< of the water around it [m2/s2], [m2/s3]
-  grains::Array eddy_u_, eddy_v_;        ///< fluctuation it feels [m/s]
+  grains::Array voidage_;                                           ///< around it [-]
+  grains::Array eddy_k_, eddy_epsilon_;                             ///< of the water around it [m2/s2], [m2/s3]
+  grains::Array gust_k_, gust_time_, gust_slope_x_, gust_slope_y_;  ///< of the eddies that reach it from above
+  grains::Array eddy_u_, eddy_v_;                                   ///< fluctuation it feels [m/s]
   grains::Array slope_x_, slope_y_, rate_x_, rate_y_, vorticity_;
 
   // By id, what the reaction on the water must know of a grain when the step is over: force whose counterpart is in the
@@ -182,6 +186,7 @@ private:
 
   base::Field volume_c_;  ///< of the cells, water and grains, slab included [m3]
   base::Field voids_, slope_u_, slope_v_, rate_u_, rate_v_, curl_;
+  base::Field packed_;  ///< averaged solid fraction over that of a packed bed [-]
 };
 
 }  // namespace livebed::coupling

@@ -33,8 +33,9 @@ enum class Lift { none, saffman_mei };
 /// take k from it as far as they do not follow its eddies.
 enum class Turbulence { untouched, bounded, damped };
 
-/// random_walk: each grain feels a fluctuation of the modelled k with the time scale of its eddies.
-enum class Dispersion { none, random_walk };
+/// random_walk: each grain feels a fluctuation of the modelled k with the time scale of its eddies.  attached: along
+/// the stream with energy and life of the strongest eddies that reach down to it (gusts.hpp).
+enum class Dispersion { none, random_walk, attached };
 
 struct Params {
   Mode mode = Mode::two_way;
