@@ -44,7 +44,8 @@ void add_validate(CLI::App& app, Action& chosen) {
       "validate", "hold whole flows and beds against the literature; without NAME, list what there is");
   verb->add_option("NAME", options->name, "what to validate");
   verb->add_option("--out", options->folder, "folder for NAME.json and its figures")->capture_default_str();
-  verb->add_option("--grain", options->grain, "of mao: 0.7mm, 1mm or 2mm (the paper's) instead of the experiment's 0.36 mm");
+  verb->add_option("--grain", options->grain,
+                   "of mao: 0.7mm, 1mm or 2mm (the paper's) instead of the experiment's 0.36 mm");
   verb->add_flag("--json", options->json, "print the numbers as JSON");
   verb->callback([options, &chosen] {
     chosen = [options] {

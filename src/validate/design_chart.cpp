@@ -181,12 +181,15 @@ std::string figure_of(const std::vector<Point>& all) {
 
 Result design_chart(const Tell& tell) {
   run::obey_signals();
+  Result result;
   std::vector<Point> points;
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     const auto take = [&](double gap, double theta) {
       const std::string folder = fmt::format("{}/e{}-theta{}-seed{}", kept_chart, gap, theta, seed);
       if (auto run = scour(case_of(gap, theta, seed), folder, tell))
         points.push_back(point_of(std::move(*run), gap, theta));
+      else if (run::stop_signal() == 0)
+        result.rows.push_back(missing(fmt::format("e/D {}, theta {}, seed {}", gap, theta, seed)));
     };
     for (double gap : gaps) take(gap, theta_of_gaps);
     for (double theta : currents)
@@ -194,7 +197,6 @@ Result design_chart(const Tell& tell) {
   }
   if (points.empty()) base::fail(base::Exit::signal, "stopped before the grains of any run were let go");
 
-  Result result;
   for (const Point& p : points) {
     const std::string name = fmt::format("e/D {}, theta {}, seed {}: ", p.gap, p.theta, p.run.seed);
     const auto add = [&](const std::string& what, double value, const std::string& unit, double low, double high,

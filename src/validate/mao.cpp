@@ -83,6 +83,7 @@ std::string csv_of_profiles(const std::vector<Scour>& all, double every) {
 
 Result hold_against_mao(const Experiment& e, const Tell& tell) {
   run::obey_signals();
+  Result result;
   std::vector<Scour> all;
   for (unsigned seed = 1; seed <= e.ends.size(); ++seed) {
     std::vector<std::string> keys = e.keys;
@@ -90,7 +91,10 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
     if (e.ends[seed - 1] > 0) keys.push_back(fmt::format("time.end={}", e.ends[seed - 1]));
     const casefile::Case c = casefile::read_text(e.text, e.name, keys);
     const std::string folder = fmt::format("{}/{}-seed{}", kept_scours, e.name, seed);
-    if (auto kept = scour(c, folder, tell)) all.push_back(std::move(*kept));
+    if (auto kept = scour(c, folder, tell))
+      all.push_back(std::move(*kept));
+    else if (run::stop_signal() == 0)
+      result.rows.push_back(missing(fmt::format("{} seed {}", e.name, seed)));
   }
   if (all.empty()) base::fail(base::Exit::signal, "stopped before the grains of any seed of {} were let go", e.name);
   const io::Table measured = io::parse_table(report::mao_depth, "mao1986_livebed_depth.csv");
@@ -99,7 +103,6 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
   const double unit = e.scaled ? scale : 1.0;  // of the run's time over the experiment's
   const char* when = e.scaled ? "t (scaled to T) " : "";
 
-  Result result;
   const auto add = [&](const Scour& s, const std::string& what, double value, const std::string& unit_of, double low,
                        double high, const std::string& reference) {
     Row row{fmt::format("{} seed {}: {}", e.name, s.seed, what), value, unit_of};

@@ -98,11 +98,25 @@ Scour read(const fs::path& folder) {
 }  // namespace
 
 std::optional<Scour> scour(const casefile::Case& c, const fs::path& folder, const Tell& tell) {
-  if (run::stop_signal() == 0) finish(c, folder, tell);
+  if (run::stop_signal() == 0) {
+    try {
+      finish(c, folder, tell);
+    } catch (const base::Fault& fault) {
+      // A run that cannot be made must not cost what the others have; one that is in the way must be told.
+      if (fault.code() == base::Exit::input_output) throw;
+      tell(fmt::format("{} failed: {}", folder.string(), fault.what()));
+    }
+  }
   if (!fs::exists(folder / "summary.json")) return std::nullopt;
   Scour s = read(folder);
   if (s.t.empty() || s.t_lines.empty()) return std::nullopt;
   return s;
+}
+
+Row missing(const std::string& name) {
+  Row row{name + ": seconds run with the grains free", 0, "s"};
+  row.low = std::numeric_limits<double>::min(), row.high = std::numeric_limits<double>::max();
+  return row;
 }
 
 double mean_depth(const Scour& s, double from, double to) {

@@ -22,10 +22,13 @@ struct Scour {
   std::vector<std::vector<double>> lines;  ///< over the original bed [D]
 };
 
-/// The run of a case kept in a folder; what is missing of it is made first, until a signal.  Empty when it has been
-/// stopped before its grains were let go.  Throws Fault: input/output when the folder holds a run of another case, and
-/// what a run throws.
+/// The run of a case kept in a folder; what is missing of it is made first, until a signal.  A run that fails is told,
+/// and what there is of it is what there is.  Empty when that ends before its grains were let go.  Throws Fault:
+/// input/output when the folder holds a run of another case, and where files cannot be read or written.
 std::optional<Scour> scour(const casefile::Case& c, const std::filesystem::path& folder, const Tell& tell);
+
+/// A row that fails: a run asked for is not there.
+Row missing(const std::string& name);
 
 /// Mean S/D over [from, to] s; NaN where the run has nothing.
 double mean_depth(const Scour& s, double from, double to);

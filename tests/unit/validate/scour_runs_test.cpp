@@ -71,5 +71,20 @@ TEST(scour_runs, are_gone_on_with_when_the_case_is_the_same) {
   }
 }
 
+TEST(scour_runs, that_fail_are_told_and_cost_the_others_nothing) {
+  setenv("XDG_CACHE_HOME", testing::TempDir().c_str(), 1);
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "failing_scour";
+  std::filesystem::remove_all(folder);
+  // Grains that never come to rest so well.
+  const casefile::Case c = casefile::read_case(LIVEBED_SOURCE_DIR "/cases/quick",
+                                               {"mesh.length=0.12", "mesh.height=0.06", "pipe.x=0.05", "bed.count=300",
+                                                "bed.settled_speed=1e-30", "bed.seed=9"});
+  std::string told;
+  EXPECT_FALSE(scour(c, folder, [&](const std::string& line) { told += line + "\n"; }));
+  EXPECT_NE(told.find("failing_scour failed: "), std::string::npos) << told;
+  EXPECT_NE(told.find("come to rest"), std::string::npos) << told;
+  EXPECT_FALSE(missing("seed 3").pass());
+}
+
 }  // namespace
 }  // namespace livebed::validate
