@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 #include <random>
 
 #include "base/fault.hpp"
@@ -19,11 +20,23 @@ namespace {
 constexpr int looks_in_a_row = 10;      ///< below settled_speed before a bed counts as settled
 constexpr int looks_per_fall = 10;      ///< in the time a grain falls its own diameter
 constexpr int looks_for_a_trend = 150;  ///< a bed that gets no slower from one such stretch to the next shakes
+/// Grains that may go on trembling in a bed at rest, of all [-]: one that is wedged between more neighbours, or fixed
+/// grains of the floor, than an explicit dashpot can damp changes its spin with every step and never stops.
+constexpr double share_that_may_tremble = 1e-3;
 constexpr double least_above_cut =
     1.5;  ///< of the mean level of a bed above the level it is cut to, over the largest d [-]
 
 /// Time in which a grain falls its own diameter [s]: the measure of everything here.
 double fall_time(const Params& p) { return std::sqrt(2 * p.diameter / submerged_gravity(p)); }
+
+/// Mean speed of all grains but the fastest, a share of all [m/s].
+double mean_speed_without(const State& s, double share) {
+  std::vector<double> speed(s.count());
+  for (int i = 0; i < s.count(); ++i) speed[i] = std::hypot(s.u[i], s.v[i]);
+  const auto kept = speed.end() - static_cast<std::ptrdiff_t>(share * s.count());
+  std::nth_element(speed.begin(), kept, speed.end());
+  return std::accumulate(speed.begin(), kept, 0.0) / std::max<std::ptrdiff_t>(1, kept - speed.begin());
+}
 
 /// A fluid at rest that slows every grain down within `time`; none for time = 0.
 void thicken(Bed& bed, double time) {
@@ -121,7 +134,7 @@ std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look) {
          "bed.settled_speed = {} m/s), largest {:.3g} m/s",
          rows.back().time, why, rows.back().mean_speed, p.settled_speed, rows.back().max_speed);
   };
-  const std::string shaking = "its contacts shake and get no slower; use more contact.steps or less damping";
+  const std::string why_shaking = "its contacts shake and get no slower; use more contact.steps or less damping";
   thicken(bed, time);
   while (true) {
     advance(bed, steps);
@@ -129,7 +142,9 @@ std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look) {
     rows.push_back({now, mean_speed(bed.state), max_speed(bed.state), bed_height(bed.state)});
     if (on_look) on_look(rows.back());
     const bool slow = rows.back().mean_speed < p.settled_speed;
-    calm = slow && now > time ? calm + 1 : 0;
+    const bool shaking = !slow && shakes(looks_for_a_trend);
+    const bool trembling = shaking && mean_speed_without(bed.state, share_that_may_tremble) < p.settled_speed;
+    calm = (slow || trembling) && now > time ? calm + 1 : 0;
     if (calm == looks_in_a_row) {
       if (!thick) break;
       // Ten looks, not one: a bed that swings as a whole is slow at its turning points, too.
@@ -137,11 +152,11 @@ std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look) {
       calm = 0;
       thicken(bed, 0);
     }
-    if (!slow && shakes(looks_for_a_trend)) give_up(shaking);
+    if (shaking && !trembling) give_up(why_shaking);
     if (now > p.settle_time) {
       give_up(
           shakes(2 * looks_in_a_row)
-              ? shaking
+              ? why_shaking
               : fmt::format("it still sinks or creeps; allow more time than bed.settle_time = {} s", p.settle_time));
     }
   }

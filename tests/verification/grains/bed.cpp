@@ -222,6 +222,35 @@ TEST(bed, full_damping_at_twenty_steps_a_contact_shakes_for_ever) {
   }
 }
 
+TEST(bed, one_grain_in_a_thousand_may_tremble_and_not_two) {
+  // Grains at rest on the floor, and others pressed between so many walls that the step is too long for their dashpots.
+  const auto wedged = [](int trembling) {
+    Params p = quartz();
+    p.restitution = 0.3;
+    p.friction = 0.55;
+    p.rolling_friction = 0.25;
+    p.steps_per_contact = 20;
+    std::vector<Body> grains;
+    for (int i = 0; i < 1200; ++i) grains.push_back({1.2 * (i + 0.5) * p.diameter, 0.5 * p.diameter});
+    p.length = (1200 * 1.2 + 10 * trembling) * p.diameter;
+    for (int i = 0; i < trembling; ++i) {
+      const double x = p.length - (10 * i + 5) * p.diameter;
+      grains.push_back({x, 0.5 * p.diameter, 0.0, 0.0, 100.0});
+      for (double side : {-0.45, -0.45, -0.45, 0.45}) {
+        const double at = x + side * p.diameter;
+        p.walls.push_back({{at, 0.0}, {at, 3 * p.diameter}});
+      }
+    }
+    return bed_of(p, grains);
+  };
+  Bed one = wedged(1);
+  const SettleRow last = settle(one).back();
+  EXPECT_GT(last.mean_speed, one.params.settled_speed);
+  EXPECT_NEAR(last.max_speed, 1201 * last.mean_speed, 0.1 * last.max_speed);
+  Bed two = wedged(2);
+  EXPECT_THROW(settle(two), base::Fault);
+}
+
 TEST(bed, floor_carries_the_weight_of_the_bed) {
   Packing packing = pack(livebed_bed(20, 12));
   const Bed& bed = packing.bed;
