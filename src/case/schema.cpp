@@ -43,7 +43,7 @@ const std::vector<std::string>& presets() {
 const std::vector<Choice>& choices() {
   // The damping of the paper, alpha_cn = 1 with 20 steps, never comes to rest in a dense bed: 80 steps do.  Over a
   // smooth plane the lowest grains roll and the whole bed slides downstream, so both presets stand on fixed grains.
-  static const std::vector<Choice> rows{{"flow.closure", "k_epsilon", "k_epsilon_realizable"},
+  static const std::vector<Choice> rows{{"flow.closure", "k_epsilon", "k_omega"},
                                         {"flow.convection", "hybrid", "bounded"},
                                         {"current.profile", "rough", "rough"},
                                         {"bed.floor", "grains", "grains"},
@@ -68,7 +68,7 @@ const std::vector<Choice>& choices() {
                                         {"coupling.turbulence", "untouched", "bounded"},
                                         {"coupling.dispersion", "none", "attached"},
                                         {"coupling.room_power", "1", "3"},
-                                        {"coupling.dispersion_energy", "1", "1.5"},
+                                        {"coupling.dispersion_energy", "1", "1.4"},
                                         {"coupling.kernel", "2", "0.6"}};
   return rows;
 }

@@ -191,6 +191,7 @@ void Coupler::settle(grains::State& g, Rests&& rests) {
     g.fluid.still[k] = 1, still.push_back(id);
     still_x_[id] = g.x[k], still_y_[id] = g.y[k];
     still_beta_[id] = g.fluid.beta[k], still_volume_[id] = base::sphere_volume(g.diameter[k]);
+    before_u_[id] = g.u[k], before_v_[id] = g.v[k];  // for the step in which it wakes; 0 if it sleeps, as after a load
   }
   add_still(still, 1);
   voids_filled_ = false;
@@ -218,20 +219,17 @@ double Coupler::response_time(const grains::State& g, int k) const {
 }
 
 double Coupler::step_limit(const grains::State& g) const {
-  if (params_.voidage == Voidage::off || params_.mode != Mode::two_way) return std::numeric_limits<double>::infinity();
-  responses_.clear();
+  double least = std::numeric_limits<double>::infinity();
+  if (params_.voidage == Voidage::off || params_.mode != Mode::two_way) return least;
   const auto may_move = [&](int k) {
-    if (!is_still(g, k)) responses_.push_back(response_time(g, k));
+    if (!is_still(g, k)) least = std::min(least, response_time(g, k));
   };
   if (located_) {
     std::for_each(moving_.begin(), moving_.end(), may_move);
   } else {
     for (int k = 0; k < g.count(); ++k) may_move(k);
   }
-  if (responses_.empty()) return std::numeric_limits<double>::infinity();
-  const auto least = responses_.begin() + static_cast<std::ptrdiff_t>(grains_passed_over * std::ssize(responses_));
-  std::nth_element(responses_.begin(), least, responses_.end());
-  return step_over_response * *least;
+  return step_over_response * least;
 }
 
 void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double interval) {

@@ -18,10 +18,10 @@ using DragLaw = std::variant<PaperDrag, DiFeliceDrag, GidaspowDrag, RongDrag>;
 /// below that the kernel has put a share of a grain where a sliver of water is.
 inline constexpr double voidage_least = 0.3;
 
-/// Largest step of the flow over the response time of all but a few grains [-].  The water learns a step late what the
-/// grains do, through drag and through the room that they leave: in a dense bed that swings more and more beyond 0.7.
-/// It is the bed that swings; single grains of a thousand, the smallest where others leave them the least room, do not.
-inline constexpr double step_over_response = 0.5, grains_passed_over = 1e-3;
+/// Largest step of the flow over the response time of any grain [-].  The water learns a step late what the grains do,
+/// through drag and through the room that they leave: in a dense bed that swings more and more beyond 0.7, and a single
+/// grain that fills its cell behind a pipe drives the water to 10 m/s and on.
+inline constexpr double step_over_response = 0.5;
 
 /// The bed counts as packed, and its water as unmixed, from this share of the packed solid fraction on [-].
 inline constexpr double packed_solid = 0.55, packed_share = 0.9;
@@ -179,9 +179,8 @@ private:
   std::int64_t steps_ = 0;  ///< with grains free to move
   grains::Array still_x_, still_y_, still_beta_, still_volume_, still_damps_;
   base::Field still_solid_, still_beta_u_, still_beta_v_, still_damping_;
-  std::vector<int> moving_;  ///< all others, in the order of the storage
-  std::vector<int> woken_;   ///< those of them that were still when the step began
-  mutable std::vector<double> responses_;
+  std::vector<int> moving_;      ///< all others, in the order of the storage
+  std::vector<int> woken_;       ///< those of them that were still when the step began
   std::vector<double> surface_;  ///< highest grain that is still, in columns along the box [m]
 
   base::Field volume_c_;  ///< of the cells, water and grains, slab included [m3]

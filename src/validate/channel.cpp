@@ -76,6 +76,7 @@ Result channel(const Tell& tell) {
       {"k-epsilon, wall function", flow::Closure::k_epsilon, 5000, 60, "#1f77b4", 0.05},
       {"realizable k-epsilon, wall function", flow::Closure::k_epsilon_realizable, 5000, 60, "#2ca02c", 0.05},
       {"k-omega SST, wall function", flow::Closure::k_omega_sst, 5000, 60, "#d62728", 0.04},
+      {"k-omega of 2006, wall function", flow::Closure::k_omega, 5000, 60, "#9467bd", 0.05},
   };
   Result result;
   report::Chart low{{"y+"}, {"U+, Re_tau 180"}, {}}, energy{{"y+"}, {"k+, Re_tau 180"}, {}},

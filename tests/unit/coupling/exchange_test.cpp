@@ -221,7 +221,7 @@ TEST(coupler, looks_at_sleepers_deep_in_the_bed_less_often) {
   EXPECT_EQ(looks[1], 2);
 }
 
-TEST(coupler, bounds_the_step_by_the_response_of_all_but_one_grain_in_a_thousand) {
+TEST(coupler, bounds_the_step_by_the_response_of_every_grain) {
   constexpr int count = 1500;
   const Params params{.drag = Drag::di_felice, .voidage = Voidage::on};
   Pair pair(params);
@@ -237,9 +237,7 @@ TEST(coupler, bounds_the_step_by_the_response_of_all_but_one_grain_in_a_thousand
   g.fluid.beta.assign(count, common);
   EXPECT_NEAR(coupler.step_limit(g), step_over_response * response, 1e-12 * response);
   g.fluid.beta[700] = 20 * common;
-  EXPECT_NEAR(coupler.step_limit(g), step_over_response * response, 1e-12 * response) << "one is passed over";
-  g.fluid.beta[3] = 10 * common;
-  EXPECT_NEAR(coupler.step_limit(g), step_over_response * response / 10, 1e-12 * response) << "two are not";
+  EXPECT_NEAR(coupler.step_limit(g), step_over_response * response / 20, 1e-12 * response);
 }
 
 TEST(coupler, finds_the_solid_volume_of_the_grains_in_the_cells) {
