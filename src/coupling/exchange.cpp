@@ -246,9 +246,20 @@ void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double inte
     vector_loop(0, nx_, [&](int i) { e[i] = std::clamp(1.0 - e[i], voidage_least, 1.0); });
   });
   at_c_.gather(voids_, voidage_);
-  if (params_.voidage == Voidage::on && params_.mode == Mode::two_way)
-    flow.set_voidage(voids_, flow.state.voidage.nx() > 0 ? interval : 0.0,
-                     uniform_ ? 0.0 : std::max(materials_.ends, reach_ + materials_.grain_diameter));
+  if (params_.voidage == Voidage::on && params_.mode == Mode::two_way) pass_room(flow, interval);
+}
+
+void Coupler::pass_room(flow::Solver& flow, double interval) {
+  const Field& known = flow.state.voidage;
+  const bool moves = known.nx() > 0 && interval > 0;
+  if (moves)
+    for_each_item(0, ny_, [&](int j) {
+      const double* before = known.row(j);
+      double* e = voids_.row(j);
+      vector_loop(0, nx_, [&](int i) { e[i] = before[i] + room_passed * (e[i] - before[i]); });
+    });
+  flow.set_voidage(voids_, moves ? interval : 0.0,
+                   uniform_ ? 0.0 : std::max(materials_.ends, reach_ + materials_.grain_diameter));
 }
 
 void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt) {
