@@ -256,7 +256,7 @@ void Coupler::pass_room(flow::Solver& flow, double interval) {
     for_each_item(0, ny_, [&](int j) {
       const double* before = known.row(j);
       double* e = voids_.row(j);
-      vector_loop(0, nx_, [&](int i) { e[i] = before[i] + room_passed * (e[i] - before[i]); });
+      vector_loop(0, nx_, [&](int i) { e[i] = before[i] + share_passed * (e[i] - before[i]); });
     });
   flow.set_voidage(voids_, moves ? interval : 0.0,
                    uniform_ ? 0.0 : std::max(materials_.ends, reach_ + materials_.grain_diameter));
@@ -359,16 +359,18 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
       return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * (g.v[k] - eddy_v_[k])};
     });
   }
-  const auto per_volume = [&](const flow::Staggering& at, const Field& owed, const Field& still, Field& beta,
-                              Field& force) {
+  const bool swings = params_.voidage == Voidage::on;
+  const auto per_volume = [&](const flow::Staggering& at, Field& owed, const Field& still, Field& beta, Field& force) {
     for_each_item(0, load.top, [&](int j) {
       const Volumes v(at, j, slab_);
-      const double *o = owed.row(j), *at_rest = still.row(j);
-      double *b = beta.row(j), *f = force.row(j);
+      const double passed = swings && j < top_ ? share_passed : 1.0, kept = 1.0 - passed, rate = passed / dt;
+      const double* at_rest = still.row(j);
+      double *o = owed.row(j), *b = beta.row(j), *f = force.row(j);
       vector_loop(0, nx_, [&](int i) {
         const double inverse = v[i] > 0 ? 1.0 / v[i] : 0.0;
         b[i] = (b[i] + at_rest[i]) * inverse;
-        f[i] = (f[i] + o[i] / dt) * inverse;
+        f[i] = (f[i] + o[i] * rate) * inverse;
+        o[i] *= kept;
       });
       if (uniform_) level(b, at.i0, nx_), level(f, at.i0, nx_);
       b[nx_] = b[nx_ - 1], f[nx_] = f[nx_ - 1];  // the outlet face feels what its neighbour feels
@@ -537,7 +539,6 @@ void Coupler::collect(grains::State& g, const flow::Solver& flow, double dt) {
     // The flow has taken beta (U - u_p) where each part of a grain is, with the water that is there; owed is only what
     // the grain's own motion during the step made of it.
     const auto anticipated = [&](int k) { return implicit ? dt * g.fluid.beta[k] * (felt[k] - before[g.id[k]]) : 0.0; };
-    owed.fill(0.0);
     to.scatter(std::array{&owed}, [&](int k) { return std::array{anticipated(k) - received(k)}; });
     for (const int k : moving_) to_grains += received(k);
     for (const int k : woken_) to_grains -= anticipated(k);  // is in given_to_still

@@ -19,11 +19,11 @@ using DragLaw = std::variant<PaperDrag, DiFeliceDrag, GidaspowDrag, RongDrag>;
 inline constexpr double voidage_least = 0.3;
 
 /// The water learns a step late what the grains do, through drag and through the room that they leave.  Of each change
-/// of the void fraction it is told this share in a step, the rest later [-]: a loose bed that moves as one swings with
-/// the water from step to step otherwise, the more the denser it is and the longer the step (docs/equations.md).
-inline constexpr double room_passed = 0.5;
-/// Largest step of the flow over the response time of any grain [-]; at a void fraction of 0.38 free grains would begin
-/// to swing here (without the share above from 0.3 on).
+/// of the void fraction, and of the impulse that it is still owed, it is told this share in a step, the rest later [-]:
+/// a loose bed that moves as one swings with the water from step to step otherwise, the more the denser it is and the
+/// longer the step (docs/equations.md).
+inline constexpr double share_passed = 0.5;
+/// Largest step of the flow over the response time of any grain [-].
 inline constexpr double step_over_response = 1.5;
 
 /// The bed counts as packed, and its water as unmixed, from this share of the packed solid fraction on [-].
@@ -132,8 +132,8 @@ private:
   /// Rows of the grid, from the floor, that the kernel of any grain touches.
   int rows_with_grains(const grains::State& g) const;
   void fill_voids(const grains::State& g, flow::Solver& flow, double interval);
-  /// The flow's void fraction moves by room_passed towards that of the cells; at once where there was none or, interval
-  /// = 0, nothing moves.
+  /// The flow's void fraction moves by share_passed towards that of the cells; at once where it had none or, interval =
+  /// 0, nothing moves.
   void pass_room(flow::Solver& flow, double interval);
   /// volumes += what the located grains fill of each cell [m3].
   void add_volumes(const grains::State& g, base::Field& volumes) const;

@@ -272,6 +272,34 @@ TEST(coupler, bounds_the_step_by_the_response_of_every_grain) {
   EXPECT_NEAR(coupler.step_limit(g), step_over_response * response / 20, 1e-12 * response);
 }
 
+TEST(coupler, tells_the_water_of_a_share_of_each_change_of_the_void_fraction) {
+  Pair pair({.drag = Drag::di_felice, .voidage = Voidage::on});
+  const auto solid = [&](int i) {
+    double sum = 0;
+    for (int j = 0; j < pair.solver.mesh().ny; ++j) sum += 1 - pair.solver.state.voidage(i, j);
+    return sum;
+  };
+  const auto step_to = [&](double x, bool held) {
+    pair.coupler.load_flow(pair.g, pair.solver, 1e-4, held);
+    pair.coupler.push_grains(pair.solver, pair.g, 1e-4);
+    pair.g.x[0] = x;
+    pair.coupler.collect(pair.g, pair.solver, 1e-4);
+  };
+  pair.g.x[0] = 0.021;
+  step_to(0.041, false);
+  const double all = solid(10);
+  ASSERT_GT(all, 0.1);
+  double left = 1;
+  for (int n = 0; n < 4; ++n) {
+    step_to(0.041, false);
+    left *= 1 - share_passed;
+    EXPECT_NEAR(solid(10), left * all, 1e-12) << n;
+    EXPECT_NEAR(solid(20), (1 - left) * all, 1e-12) << n;
+  }
+  step_to(0.041, true);  // held, grains leave no room and take none: what they fill is known at once
+  EXPECT_NEAR(solid(20), all, 1e-12);
+}
+
 TEST(coupler, finds_the_solid_volume_of_the_grains_in_the_cells) {
   Pair pair({});
   base::Field fraction(pair.solver.mesh().nx, pair.solver.mesh().ny);

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
+#include <utility>
 
 #include "grains/laws.hpp"
 #include "tank.hpp"
@@ -77,11 +78,11 @@ TEST(fixed_bed, costs_about_the_pressure_of_ergun_by_the_other_laws) {
 
 /// Speed at which grains fall together in a closed box: each carries its weight by drag and by the pressure gradient,
 /// and the water rises by what they displace, so the slip is w / e and its drag e times the weight.
-double hindered_speed(double e) {
+double hindered_speed(double e, double viscosity = nu) {
   const DiFeliceDrag law{sphere};
   const double weight = (rho_s - rho) * volume * gravity;
   double w = 0.1;
-  for (int n = 0; n < 300; ++n) w = 0.5 * (w + e * weight / law({w / e, d, rho, nu, e}) * e);
+  for (int n = 0; n < 300; ++n) w = 0.5 * (w + e * weight / law({w / e, d, rho, viscosity, e}) * e);
   return w;
 }
 
@@ -111,6 +112,29 @@ TEST(suspension, falls_slower_the_denser_it_is) {
     EXPECT_GT(speed / alone, std::pow(e, 3.4));
     EXPECT_LT(base::norm(experiment.coupler().ledger().error()), 1e-12);
   }
+}
+
+TEST(suspension, does_not_swing_in_the_longest_step) {
+  constexpr double spacing = 1.05 * d;  // a void fraction of 0.52, and no contact
+  Tank tank;
+  tank.length = 16 * spacing, tank.height = 0.2, tank.cell = spacing;
+  tank.viscosity = 2e-5;  // or they would fall several cells in such a step
+  tank.coupling = volume_averaged(Drag::di_felice);
+  std::vector<Body> bodies;
+  for (double y = 0.1; y < 0.18; y += spacing)
+    for (double x = 0.5 * spacing; x < tank.length - 0.4 * spacing; x += spacing) bodies.push_back({.x = x, .y = y});
+  Experiment experiment(tank, bodies);
+  const grains::State& g = experiment.bed().state;
+  const int middle = g.count() / 2;
+  for (int n = 0; n < 20; ++n) experiment.step(100);  // drag and with it the limit are those of grains at rest before
+  double speed = g.v[middle], change = 0;
+  for (int n = 0; n < 28; ++n) {
+    experiment.step(static_cast<int>(experiment.coupler().step_limit(g) / experiment.grain_step()));
+    change = g.v[middle] - std::exchange(speed, g.v[middle]);
+  }
+  EXPECT_NEAR(-speed / hindered_speed(1 - volume / (spacing * spacing * d), tank.viscosity), 1, 0.1);
+  EXPECT_LT(std::abs(change), 0.01 * std::abs(speed));
+  EXPECT_LT(base::norm(experiment.coupler().ledger().error()), 1e-12);
 }
 
 }  // namespace
