@@ -1,9 +1,11 @@
 #include "grains/advance.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/fault.hpp"
 #include "grains/refresh.hpp"
+#include "grains/slabs.hpp"
 #include "grains/sleep.hpp"
 
 namespace livebed::grains {
@@ -78,7 +80,7 @@ void check_count(const Bed& bed) {
 void advance(Bed& bed, int steps) {
   check_sizes(bed);
   bed.records.call_began = bed.steps;
-  const Sweep constants = make_sweep(bed.params, bed.pipe, bed.state.count());
+  Sweep constants = make_sweep(bed.params, bed.pipe, bed.state.count());
   const int between_looks = steps_between_looks(bed.params);
   prepare_sleep(bed);
   if (!lists_hold(bed.state, bed.contacts, constants.reach, bed.pipe)) {
@@ -88,9 +90,12 @@ void advance(Bed& bed, int steps) {
     fill_records(bed.state, bed.contacts, bed.steps, bed.records, bed.scratch.memory);
   }
   if (bed.params.sleep) wake_by_fluid(bed);
-  for (int step = 0; step < steps; ++step) {
-    const bool held = sweep(constants, bed.contacts, bed.records);
-    ++bed.steps;
+  for (int left = steps; left > 0;) {
+    const int to_look = bed.params.sleep ? between_looks - static_cast<int>(bed.steps % between_looks) : left;
+    const int at_once =
+        plan_steps(constants, bed.contacts, bed.records, bed.steps, left == steps, std::min(left, to_look));
+    const bool held = sweep(constants, bed.contacts, bed.records, at_once);
+    bed.steps += at_once, left -= at_once;
     if (!held) {
       bed.records.border_known = false;
       if (!refresh(constants, bed.state, bed.contacts, bed.records, bed.scratch)) {

@@ -1,12 +1,9 @@
 #include "grains/contact.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 
 #include "base/loops.hpp"
-#include "grains/kernels.hpp"
 
 namespace livebed::grains {
 
@@ -23,6 +20,7 @@ Sweep make_sweep(const Params& p, const Circle& pipe, int count) {
           .floor_spacing = p.length / (2 * pairs),
           .gravity = submerged_gravity(p),
           .dt = p.step,
+          .leash = 0.5 * p.skin * p.diameter,
           .kick_r3 = p.step / mass(p, 2),
           .spin = 1 / inertia_factor(p.inertia),
           .pipe = pipe,
@@ -47,21 +45,6 @@ void fill_slice(const State& s, int slice, std::int64_t steps, Records& r) {
   }
 }
 
-void list_awake(Records& r, const Contacts& c, double length) {
-  const auto slab_of = [&](std::size_t slice) {
-    return std::clamp(static_cast<int>(slabs * c.x_built[slice * lanes] / length), 0, slabs - 1);
-  };
-  std::array<std::int32_t, slabs + 1> end{};  // of each slab the next place
-  for (std::size_t slice = 0; slice < r.asleep.size(); ++slice)
-    if (r.asleep[slice] == 0) ++end[slab_of(slice) + 1];
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  r.awake.resize(end[slabs]);
-  for (std::size_t slice = 0; slice < r.asleep.size(); ++slice)
-    if (r.asleep[slice] == 0) r.awake[end[slab_of(slice)]++] = static_cast<std::int32_t>(slice);
-  r.moved.assign((r.awake.size() + slices_per_block - 1) / slices_per_block, 0);
-  r.border_known = false;
-}
-
 void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r, base::Arena& memory) {
   const int n = s.count(), slices = c.slices(), last = nobody(n);
   if (!r.hold(c)) {
@@ -82,20 +65,6 @@ void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records
   } else {
     base::for_each_item(0, static_cast<int>(r.awake.size()), [&](int k) { fill_slice(s, r.awake[k], steps, r); });
   }
-}
-
-bool sweep(const Sweep& k, Contacts& c, Records& r) {
-  const int slices = static_cast<int>(r.awake.size()), blocks = static_cast<int>(r.moved.size());
-  const auto step_slices = kernels().step_slices;
-  std::fill(r.moved.begin(), r.moved.end(), 0);
-  base::for_each_item(0, blocks, [&](int block) {
-    const int begin = block * slices_per_block;
-    // Written in the rare case only: two threads that write to one line of the cache wait for each other.
-    if (step_slices(k, c, r, begin, std::min(slices, begin + slices_per_block))) r.moved[block] = 1;
-  });
-  swap(r.place, r.place_next);
-  swap(r.motion, r.motion_next);
-  return std::none_of(r.moved.begin(), r.moved.end(), [](std::uint8_t moved) { return moved != 0; });
 }
 
 void read_slice(const Sweep& k, std::int64_t steps, const Records& r, int slice, State& s) {

@@ -45,18 +45,23 @@ struct Records {
   std::vector<std::int64_t> slept_from;  ///< of each sleeping slice: step up to which its impulses are counted
   std::int64_t call_began = 0;           ///< steps of the bed when advance was called
   std::int64_t filled_for = -1;          ///< number of the lists (Contacts::rebuilds) all slices were filled for
-  std::vector<std::uint8_t> moved;       ///< of each block of slices awake: some grain left its half skin
+  std::vector<std::uint8_t> moved;       ///< of each block of slices awake: some grain is off the leash
   Array pipe_impulse_x, pipe_impulse_y;  ///< of each slice since the last collection [N s]
+
+  // Slabs along the current (slabs.hpp).
+  int slabs = 0;
+  std::int64_t slabs_for = -1;              ///< number of the lists they were cut for
+  std::vector<std::int32_t> slab_of_patch;  ///< of each patch of slices
+  std::vector<std::int32_t> slab_first;     ///< of each slab: where its slices begin in `awake`; and the end
+  std::vector<std::uint8_t> slab_moved;     ///< as `moved`, of each slab
+  std::int64_t plan_at = 0;                 ///< step of the bed at which the fastest grain is looked for again
+  std::vector<double> partial;              ///< scratch
 
   /// Whether they have been filled since the lists were made.
   bool hold(const Contacts& c) const { return !place.empty() && filled_for == c.rebuilds; }
 };
 
 inline constexpr int slices_per_block = 8;  ///< what one thread takes at a time
-/// Slices awake are stepped slab by slab: the shares of two threads then meet along a short line down through the bed,
-/// not along a layer of it, and few grains have a neighbour whose record is in the other core's cache.
-inline constexpr int slabs = 32;
-
 /// The constants of a step.
 struct Sweep {
   int count;  ///< of grains
@@ -67,6 +72,7 @@ struct Sweep {
   double floor_spacing;  ///< between the fixed grains of the floor [m]
   double gravity;        ///< of a submerged grain, downwards [m/s2]
   double dt;             ///< [s]
+  double leash;          ///< a grain that has gone further than this since it was listed must be listed anew [m]
   double kick_r3;        ///< dt / m of a grain times the cube of its radius [m3 s/kg]
   double spin;           ///< m r^2 / I [-]
   Circle pipe;
@@ -75,9 +81,6 @@ struct Sweep {
 
 /// Constants from complete parameters (derive) for a bed of so many grains.
 Sweep make_sweep(const Params& p, const Circle& pipe, int count);
-
-/// Who is awake, by what is known of who sleeps.
-void list_awake(Records& r, const Contacts& c, double length);
 
 /// Fills the records from the state, those of sleeping slices once for each new lists, and clears the pipe's impulse.
 /// steps: of the bed so far.
@@ -91,14 +94,6 @@ void read_records(const Sweep& k, std::int64_t steps, const Records& r, State& s
 
 /// The same for one slice, asleep or not.
 void read_slice(const Sweep& k, std::int64_t steps, const Records& r, int slice, State& s);
-
-/// One step of every grain, forces and motion in one pass over the slices (symplectic: velocities, then positions):
-///   1  F <- contacts with neighbours, floor and pipe; histories forward
-///   2  (m + dt beta) u <- m u + dt (F + weight + f + beta U); the drag is implicit;  impulse += dt (f + beta (U - u))
-///   3  spin <- spin + dt r sum f_s / I;  x <- x + dt u, wrapped into [0, length)
-/// Returns false when some grain has moved more than half a skin (or nowhere finite), so that it must be listed anew
-/// before the next step.
-bool sweep(const Sweep& k, Contacts& c, Records& r);
 
 /// What the grains gave the pipe since the records were filled [N s], summed in the order of the slices.
 base::Vec2 collect_pipe_impulse(Records& r);

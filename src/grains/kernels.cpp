@@ -168,6 +168,14 @@ void push_pieces(const Sweep& k, Part& g, Contacts& c, int slice, int lane) {
   }
 }
 
+/// Places and motions of all grains when a step begins, or when it ends.
+struct Level {
+  Place* place;
+  Motion* motion;
+};
+Level now_of(Records& r) { return {r.place.data(), r.motion.data()}; }
+Level next_of(Records& r) { return {r.place_next.data(), r.motion_next.data()}; }
+
 /// A row of pairs: where the others are, and which of them touch.
 struct Row {
   Lanes dx, dy, d2, contact_distance, r, w;
@@ -193,10 +201,10 @@ template <bool across_seam>
 }
 
 template <class Form, bool across_seam>
-[[gnu::always_inline]] inline void push_pairs(const Sweep& k, Part& part, Contacts& c, const Records& records,
-                                              int slice, int lane) {
-  const double* const place = &records.place.data()->x;
-  const double* const motion = &records.motion.data()->u;
+[[gnu::always_inline]] inline void push_pairs(const Sweep& k, Part& part, Contacts& c, const Level& now, int slice,
+                                              int lane) {
+  const double* const place = &now.place->x;
+  const double* const motion = &now.motion->u;
   const std::int32_t* const neighbour = c.neighbour.data() + lane;
   double* const springs = c.spring.data() + lane;
   double* const rolling = c.rolling.data() + (Form::rolling ? lane : 0);
@@ -234,7 +242,7 @@ template <class Form, bool across_seam>
 }
 
 /// Moves the part of a slice from `lane` on and writes its records.  x_built, y_built: of its grains.  Returns a bit
-/// for every lane that has left its half skin.
+/// for every lane that is off the leash.
 [[gnu::always_inline]] inline unsigned move(const Sweep& k, const Part& g, Own& own, int lane, const double* x_built,
                                             const double* y_built, Place* place, Motion* motion) {
   const auto get = [&](const Own::Eight& of) { return load(of + lane); };
@@ -254,29 +262,29 @@ template <class Form, bool across_seam>
   store_twos(&motion->u, u, v);
 
   const Lanes dx = nearest_image<Lanes>(x - load(x_built), k.reach.length), dy = y - load(y_built);
-  const Lanes limit = zero + base::square(0.5 * k.reach.skin);
+  const Lanes limit = zero + base::square(k.leash);
   return bits(~(dx * dx + dy * dy <= limit));  // a NaN counts as moved
 }
 
 /// Grains [begin, begin + width) as the records hold them.
-[[gnu::always_inline]] inline Part part_of(const Records& records, int begin) {
+[[gnu::always_inline]] inline Part part_of(const Level& now, int begin) {
   std::int32_t at[width];
   for (int l = 0; l < width; ++l) at[l] = begin + l;
   Lanes place[4], motion[2];
-  load_fours(&records.place.data()->x, at, place);
-  load_twos(&records.motion.data()->u, at, motion);
+  load_fours(&now.place->x, at, place);
+  load_twos(&now.motion->u, at, motion);
   return {.x = place[0], .y = place[1], .u = motion[0], .v = motion[1], .r = place[2], .w = place[3]};
 }
 
 /// Everything that touches the part of a slice from `lane` on pushes it.
 template <class Form>
-[[gnu::always_inline]] inline void push_all(const Sweep& k, Part& g, Contacts& c, Records& records, int slice,
-                                            int lane) {
+[[gnu::always_inline]] inline void push_all(const Sweep& k, Part& g, Contacts& c, Records& records, const Level& now,
+                                            int slice, int lane) {
   const unsigned near = c.near[slice];
   if (near & near_seam) {
-    push_pairs<Form, true>(k, g, c, records, slice, lane);
+    push_pairs<Form, true>(k, g, c, now, slice, lane);
   } else {
-    push_pairs<Form, false>(k, g, c, records, slice, lane);
+    push_pairs<Form, false>(k, g, c, now, slice, lane);
   }
   const int wall = c.wall_place[slice] * lanes + lane;
   if (near & near_floor) push_floor<Form>(k, g, c, wall);
@@ -284,16 +292,16 @@ template <class Form>
   if (near & near_wall) push_pieces<Form>(k, g, c, slice, lane);
 }
 
-/// One step of a slice.  Returns true when a grain of it has left its half skin.
+/// One step of a slice.  Returns true when a grain of it is off the leash.
 template <class Form>
-inline bool step_slice(const Sweep& k, Contacts& c, Records& records, int slice) {
+inline bool step_slice(const Sweep& k, Contacts& c, Records& records, const Level& now, const Level& next, int slice) {
   unsigned moved = 0;
   for (int lane = 0; lane < lanes; lane += width) {
     const int begin = slice * lanes + lane;
-    Part g = part_of(records, begin);
-    push_all<Form>(k, g, c, records, slice, lane);
-    moved |= move(k, g, records.own[slice], lane, &c.x_built[begin], &c.y_built[begin], &records.place_next[begin],
-                  &records.motion_next[begin])
+    Part g = part_of(now, begin);
+    push_all<Form>(k, g, c, records, now, slice, lane);
+    moved |= move(k, g, records.own[slice], lane, &c.x_built[begin], &c.y_built[begin], next.place + begin,
+                  next.motion + begin)
              << lane;
   }
   const int idle = (slice + 1) * lanes - k.count;  // the last slice may have lanes without a grain
@@ -308,10 +316,11 @@ auto with_form(const Sweep& k, Run&& run) {
   return k.reach.rolling ? run(Form<Law::paper, true, keeps>{}) : run(Form<Law::paper, false, keeps>{});
 }
 
-bool step_slices(const Sweep& k, Contacts& c, Records& r, int begin, int end) {
+bool step_slices(const Sweep& k, Contacts& c, Records& r, int begin, int end, bool back) {
+  const Level now = back ? next_of(r) : now_of(r), next = back ? now_of(r) : next_of(r);
   return with_form<true>(k, [&](auto form) {
     bool moved = false;
-    for (int n = begin; n < end; ++n) moved |= step_slice<decltype(form)>(k, c, r, r.awake[n]);
+    for (int n = begin; n < end; ++n) moved |= step_slice<decltype(form)>(k, c, r, now, next, r.awake[n]);
     return moved;
   });
 }
@@ -319,8 +328,9 @@ bool step_slices(const Sweep& k, Contacts& c, Records& r, int begin, int end) {
 void push_slice(const Sweep& k, Contacts& c, Records& r, int slice, SliceForce& force) {
   with_form<false>(k, [&](auto form) {
     for (int lane = 0; lane < lanes; lane += width) {
-      Part g = part_of(r, slice * lanes + lane);
-      push_all<decltype(form)>(k, g, c, r, slice, lane);
+      const Level now = now_of(r);
+      Part g = part_of(now, slice * lanes + lane);
+      push_all<decltype(form)>(k, g, c, r, now, slice, lane);
       store(force.x + lane, g.force_x);
       store(force.y + lane, g.force_y);
       store(force.twist + lane, g.twist);

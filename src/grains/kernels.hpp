@@ -15,8 +15,9 @@ struct SliceForce {
 
 struct Kernels {
   const char* name;  ///< of the instruction set
-  /// One step of the slices [begin, end) of Records::awake.  Returns true when a grain of them has left its half skin.
-  bool (*step_slices)(const Sweep& k, Contacts& c, Records& r, int begin, int end);
+  /// One step of the slices [begin, end) of Records::awake, from place and motion to place_next and motion_next or,
+  /// back, from these to those.  Returns true when a grain of them is off the leash.
+  bool (*step_slices)(const Sweep& k, Contacts& c, Records& r, int begin, int end, bool back);
   /// Forces on a slice that does not move.  What its contacts remember stays as it is.
   void (*push_slice)(const Sweep& k, Contacts& c, Records& r, int slice, SliceForce& force);
   /// Neighbours of the grains of ranks [begin, end) one after the other into `found`, where (end - begin) x

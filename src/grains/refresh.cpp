@@ -51,7 +51,7 @@ void fill_grid(const State& s, const Contacts& c, const Reach& reach, Grid& grid
 
 void find_moved(const Sweep& k, const State& s, const Contacts& c, const Records& r, std::vector<std::int32_t>& moved) {
   moved.clear();
-  const double limit = square(0.5 * k.reach.skin);
+  const double limit = square(k.leash);
   const int slices = static_cast<int>(r.awake.size());
   for (std::size_t block = 0; block < r.moved.size(); ++block) {
     if (r.moved[block] == 0) continue;

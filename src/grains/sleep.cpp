@@ -7,6 +7,7 @@
 #include "base/loops.hpp"
 #include "base/math.hpp"
 #include "grains/kernels.hpp"
+#include "grains/slabs.hpp"
 
 namespace livebed::grains {
 
@@ -192,7 +193,7 @@ void spread_sleep(Bed& bed) {
   Records& r = bed.records;
   const int slices = bed.contacts.slices();
   r.asleep.assign(slices, 0);
-  if (s.sleep.asleep.empty()) return list_awake(r, bed.contacts, bed.params.length);
+  if (s.sleep.asleep.empty()) return list_awake(r, s, bed.contacts, reach_of(bed.params));
   r.turn.assign(slices, 0);
   r.slept_from.assign(slices, bed.steps);
   base::for_each_item(0, slices, [&](int slice) {
@@ -217,7 +218,7 @@ void spread_sleep(Bed& bed) {
       s.sleep.asleep[i] = 0;
     });
   }
-  list_awake(r, bed.contacts, bed.params.length);
+  list_awake(r, bed.state, bed.contacts, reach_of(bed.params));
 }
 
 void wake_by_fluid(Bed& bed) {
@@ -240,7 +241,7 @@ void wake_by_fluid(Bed& bed) {
     wake(bed, slice);
     any = true;
   }
-  if (any) list_awake(r, bed.contacts, bed.params.length);
+  if (any) list_awake(r, bed.state, bed.contacts, reach_of(bed.params));
 }
 
 namespace {
@@ -293,7 +294,7 @@ void look(Bed& bed, const Sweep& k) {
   };
   turn_over(r.border, [&](int slice) { wake(bed, slice); });
   if (may_fall) turn_over(r.awake, [&](int slice) { fall_asleep(bed, k, slice); });
-  if (any) list_awake(r, bed.contacts, bed.params.length);
+  if (any) list_awake(r, bed.state, bed.contacts, reach_of(bed.params));
 }
 
 void count_impulses(Bed& bed, bool of_still) {

@@ -1,0 +1,192 @@
+#include "grains/slabs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/loops.hpp"
+#include "base/math.hpp"
+#include "grains/kernels.hpp"
+
+namespace livebed::grains {
+
+namespace {
+
+/// Slices that go into a slab together: neighbours in the order of the grains.
+constexpr int slices_per_patch = 8;
+/// Share of the half skin that grains may go between two looks at the lists.
+constexpr double slack = 0.2;
+/// Slabs narrower than a few rows of grains would be stepped one by one for nothing; so many are enough to share out.
+constexpr int most_slabs = 1 << 14;
+
+/// Where the slices of a patch are: a place of the box, and how far from it the furthest of their grains is.
+struct Patch {
+  double x = 0, reach = 0;
+};
+
+Patch find_patch(const Contacts& c, int count, int patch, double length) {
+  const int begin = patch * slices_per_patch * lanes, end = std::min(count, begin + slices_per_patch * lanes);
+  const double start = c.x_built[begin];
+  double low = 0, high = 0;
+  for (int i = begin; i < end; ++i) {
+    const double way = nearest_image(c.x_built[i] - start, length);
+    low = std::min(low, way), high = std::max(high, way);
+  }
+  const double x = start + 0.5 * (low + high);
+  return {x < 0 ? x + length : (x >= length ? x - length : x), 0.5 * (high - low)};
+}
+
+/// Assigns every patch to a slab wide enough that no list reaches over a whole one.
+void cut_slabs(Records& r, const State& s, const Contacts& c, const Reach& reach) {
+  const int patches = (c.slices() + slices_per_patch - 1) / slices_per_patch;
+  std::vector<Patch> all(patches);
+  base::for_each_item(0, patches, [&](int p) { all[p] = find_patch(c, s.count(), p, reach.length); });
+  double widest = 0;
+  for (const Patch& p : all) widest = std::max(widest, p.reach);
+  const double largest = base::vector_largest(0, s.count(), 0.0, [&](int i) { return s.diameter[i]; });
+  const double width = 2 * widest + reach.gamma * largest + reach.skin;
+  r.slabs = std::clamp(static_cast<int>(reach.length / width), 1, most_slabs);
+  r.slab_of_patch.resize(patches);
+  for (int p = 0; p < patches; ++p)
+    r.slab_of_patch[p] = std::min(static_cast<int>(r.slabs * all[p].x / reach.length), r.slabs - 1);
+  r.slabs_for = c.rebuilds;
+}
+
+/// One step of one slab: reads the one set of places and motions and writes the other.
+void step_slab(const Sweep& k, Contacts& c, Records& r, int slab, bool back) {
+  if (kernels().step_slices(k, c, r, r.slab_first[slab], r.slab_first[slab + 1], back)) r.slab_moved[slab] = 1;
+}
+
+void swap_levels(Records& r) {
+  swap(r.place, r.place_next);
+  swap(r.motion, r.motion_next);
+}
+
+/// A step of all slices, block by block.
+void step_all(const Sweep& k, Contacts& c, Records& r) {
+  const int slices = static_cast<int>(r.awake.size()), blocks = static_cast<int>(r.moved.size());
+  const auto step_slices = kernels().step_slices;
+  base::for_each_item(0, blocks, [&](int block) {
+    const int begin = block * slices_per_block;
+    // Written in the rare case only: two threads that write to one line of the cache wait for each other.
+    if (step_slices(k, c, r, begin, std::min(slices, begin + slices_per_block), false)) r.moved[block] = 1;
+  });
+  swap_levels(r);
+}
+
+/// Parts of the slabs, one a thread, with about as many slices awake in each: first slab of each part.
+std::vector<int> share_out(const Records& r, int parts) {
+  std::vector<int> first(parts + 1, r.slabs);
+  const double all = static_cast<double>(r.awake.size());
+  for (int p = 0; p < parts; ++p)
+    first[p] = static_cast<int>(std::lower_bound(r.slab_first.begin(), r.slab_first.begin() + r.slabs,
+                                                 static_cast<std::int32_t>(all * p / parts)) -
+                                r.slab_first.begin());
+  first[0] = 0;
+  return first;
+}
+
+/// Steps of all slabs at once.  Each thread makes those of its part that need nothing of another part, one slab less at
+/// either end in each further step; then those around its first slab that are left.  `deep`: how many steps at once.
+void step_deep(const Sweep& k, Contacts& c, Records& r, const std::vector<int>& first, int deep) {
+  const int parts = static_cast<int>(first.size()) - 1;
+  base::for_each_item(0, parts, [&](int part) {
+    const int low = first[part], high = first[part + 1];
+    for (int wave = 0; wave < high - low + deep; ++wave)
+      for (int step = 0; step < deep; ++step) {
+        const int slab = low + wave - step;
+        if (slab >= low + step && slab < high - step) step_slab(k, c, r, slab, step % 2 != 0);
+      }
+  });
+  base::for_each_item(0, parts, [&](int part) {
+    for (int step = 1; step < deep; ++step)
+      for (int slab = first[part] - step; slab < first[part] + step; ++slab)
+        step_slab(k, c, r, (slab + r.slabs) % r.slabs, step % 2 != 0);
+  });
+  if (deep % 2 != 0) swap_levels(r);
+}
+
+/// What slabs have told of grains off the leash, told of their blocks.
+void tell_blocks(Records& r) {
+  for (int slab = 0; slab < r.slabs; ++slab) {
+    if (r.slab_moved[slab] == 0) continue;
+    r.slab_moved[slab] = 0;
+    for (int n = r.slab_first[slab]; n < r.slab_first[slab + 1]; ++n) r.moved[n / slices_per_block] = 1;
+  }
+}
+
+/// How far along x or y a grain awake may go in a time [m]: with twice its speed and as the fluid and gravity, and no
+/// contact, push it; infinite when a number is not finite.
+double furthest_way(const Sweep& k, Records& r, double time) {
+  const int slices = static_cast<int>(r.awake.size());
+  const double push_r3 = k.kick_r3 / k.dt, gravity = std::abs(k.gravity);
+  return base::largest(0, static_cast<int>(r.moved.size()), r.partial, 0.0, [&](int block) {
+    double furthest = 0;
+    for (int n = block * slices_per_block; n < std::min(slices, (block + 1) * slices_per_block); ++n) {
+      const Own& own = r.own[r.awake[n]];
+      const int begin = r.awake[n] * lanes;
+      for (int l = 0; l < std::min(lanes, k.count - begin); ++l) {
+        const Place& at = r.place[begin + l];
+        const Motion& motion = r.motion[begin + l];
+        const double push = push_r3 * (std::abs(own.push_x[l]) + std::abs(own.push_y[l])) / base::cube(at.r);
+        const double speed = std::abs(motion.u) + std::abs(motion.v) + 0.0 * (at.x + at.y + at.w);
+        const double way = time * (2 * speed + time * (push + gravity));
+        if (!(way <= furthest)) furthest = std::isnan(way) ? std::numeric_limits<double>::infinity() : way;
+      }
+    }
+    return furthest;
+  });
+}
+
+}  // namespace
+
+void list_awake(Records& r, const State& s, const Contacts& c, const Reach& reach) {
+  if (r.slabs_for != c.rebuilds) cut_slabs(r, s, c, reach);
+  std::vector<std::int32_t>& end = r.slab_first;  // while they are filled: of each slab the next place
+  end.assign(r.slabs + 2, 0);
+  const int slices = static_cast<int>(r.asleep.size());
+  const auto slab_of = [&](int slice) { return r.slab_of_patch[slice / slices_per_patch]; };
+  for (int slice = 0; slice < slices; ++slice)
+    if (r.asleep[slice] == 0) ++end[slab_of(slice) + 2];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  r.awake.resize(end[r.slabs + 1]);
+  for (int slice = 0; slice < slices; ++slice)
+    if (r.asleep[slice] == 0) r.awake[end[slab_of(slice) + 1]++] = slice;
+  r.moved.assign((r.awake.size() + slices_per_block - 1) / slices_per_block, 0);
+  r.slab_moved.assign(r.slabs, 0);
+  r.border_known = false;
+}
+
+int plan_steps(Sweep& k, const Contacts& c, Records& r, std::int64_t bed_steps, bool first, int most) {
+  const double half_skin = 0.5 * k.reach.skin;
+  k.leash = half_skin;
+  const int steps = std::min(most, most_steps_at_once);
+  if (c.refreshed > 0 || steps < 2 || (!first && bed_steps < r.plan_at)) return 1;
+  const bool calm = furthest_way(k, r, steps * k.dt) < slack * half_skin;
+  r.plan_at = bed_steps + (calm ? steps : most_steps_at_once);
+  if (!calm) return 1;
+  k.leash = (1 - slack) * half_skin;
+  return steps;
+}
+
+bool sweep(const Sweep& k, Contacts& c, Records& r, int steps) {
+  std::fill(r.moved.begin(), r.moved.end(), 0);
+  const std::vector<int> first = steps > 1 ? share_out(r, base::threads()) : std::vector<int>();
+  int deepest = 1;
+  for (std::size_t part = 0; part + 1 < first.size(); ++part) {
+    const int half = (first[part + 1] - first[part]) / 2;
+    deepest = part == 0 ? half : std::min(deepest, half);
+  }
+  for (int done = 0; done < steps;) {
+    const int deep = std::min(deepest, steps - done);
+    if (deep > 1)
+      step_deep(k, c, r, first, deep), done += deep;
+    else
+      step_all(k, c, r), ++done;
+  }
+  if (deepest > 1) tell_blocks(r);
+  return std::none_of(r.moved.begin(), r.moved.end(), [](std::uint8_t moved) { return moved != 0; });
+}
+
+}  // namespace livebed::grains
