@@ -79,9 +79,10 @@ public:
 
 private:
   void set_pressure_coefficients();
-  /// Largest of both(|u|/dx, |v|/dy) [1/s].
+  /// Largest of both(|u|/dx, |v|/dy) [1/s]; with per_inertia, of the cells, what flows through a face along x is taken
+  /// over what the cell behind it holds, which is little where the pipe cuts it.
   template <class Both>
-  double passage_rate(Both&& both) const;
+  double passage_rate(Both&& both, const base::SharedRows* per_inertia = nullptr) const;
   StepReport advance_projection(double dt);
   StepReport advance_simple(double dt);
   StepReport outer_iteration(double inverse_dt);
