@@ -109,14 +109,10 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
     *f = Field(nx_, ny_);
 }
 
-void Coupler::list_moving(const grains::State& g) {
+void Coupler::locate(const grains::State& g) {
   moving_.clear();
   for (int k = 0; k < g.count(); ++k)
     if (!is_still(g, k)) moving_.push_back(k);
-}
-
-void Coupler::locate(const grains::State& g) {
-  list_moving(g);
   for (Transfer* at : {&at_u_, &at_v_, &at_c_}) at->locate(g.x, g.y, moving_);
   located_ = true;
 }
@@ -222,32 +218,18 @@ double Coupler::response_time(const grains::State& g, int k) const {
   return inertia * base::sphere_volume(g.diameter[k]) / g.fluid.beta[k];
 }
 
-double most_without_swing(double voidage, double density_ratio) {
-  constexpr double heard = share_passed / (2 - share_passed);  // of what changes its sign from step to step
-  constexpr double mean_motion = 0.6;                          // during a step, over all of it
-  const double r = (1 - voidage) / voidage, growth = r + heard * (r * (1 + r) + 2 * mean_motion * r) - 1;
-  return growth > 0 ? std::max(0.0, 2 * (1 - heard * density_ratio * r)) / growth
-                    : std::numeric_limits<double>::infinity();
-}
-
-double Coupler::step_limit(const grains::State& g, const flow::Solver& flow) {
+double Coupler::step_limit(const grains::State& g) const {
   double least = std::numeric_limits<double>::infinity();
   if (params_.voidage == Voidage::off || params_.mode != Mode::two_way) return least;
-  if (!located_) {
-    list_moving(g);
-    at_c_.locate(g.x, g.y, moving_);
+  const auto may_move = [&](int k) {
+    if (!is_still(g, k)) least = std::min(least, response_time(g, k));
+  };
+  if (located_) {
+    std::for_each(moving_.begin(), moving_.end(), may_move);
+  } else {
+    for (int k = 0; k < g.count(); ++k) may_move(k);
   }
-  const bool known = flow.state.voidage.nx() > 0;
-  if (known) at_c_.gather(flow.state.voidage, voidage_);
-  const double density_ratio = density_ / (materials_.grain_density + materials_.added_mass * density_);
-  for (const int k : moving_) {
-    const double time = response_time(g, k), speed = std::sqrt(g.u[k] * g.u[k] + g.v[k] * g.v[k]);
-    double steps = step_over_response;
-    if (known && speed * time > free_way * g.diameter[k])
-      steps = std::min(steps, most_without_swing(std::max(voidage_[k], voidage_least), density_ratio));
-    least = std::min(least, steps * time);
-  }
-  return least;
+  return step_over_response * least;
 }
 
 void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double interval) {

@@ -23,10 +23,8 @@ inline constexpr double voidage_least = 0.3;
 /// a loose bed that moves as one swings with the water from step to step otherwise, the more the denser it is and the
 /// longer the step (docs/equations.md).
 inline constexpr double share_passed = 0.5;
-/// Largest step of the flow over the response time of any grain [-]; less where a grain moves freely in a dense bed
-/// (most_without_swing).  A grain is free when it goes further than this in its response time [d]: one that is held by
-/// its contacts leaves no room.
-inline constexpr double step_over_response = 1.5, free_way = 0.05;
+/// Largest step of the flow over the response time of any grain [-].
+inline constexpr double step_over_response = 1;
 
 /// The bed counts as packed, and its water as unmixed, from this share of the packed solid fraction on [-].
 inline constexpr double packed_solid = 0.55, packed_share = 0.9;
@@ -62,10 +60,6 @@ struct Materials {
   double ends = 0;            ///< grains come and go so near to the ends of the box [m]
 };
 
-/// Longest step over the response time of grains that move as one, free of contacts, at a void fraction with which they
-/// do not swing with the water [-] (docs/equations.md).  density_ratio: of the water over grain and added mass.
-double most_without_swing(double voidage, double density_ratio);
-
 /// The forces between flow and grains, both ways.  A coupled step of dt is
 ///   1  load_flow:    void fraction <- grains; beta <- slip of each grain; load <- beta, beta u_p, what is still owed
 ///   2  the flow advances with beta implicit
@@ -99,9 +93,8 @@ public:
   /// Before grains at these places of the storage leave the bed and others enter: forgets where all were.
   void let_leave(grains::State& g, const std::vector<int>& leaving);
 
-  /// Longest step that the exchange bears [s], from the drag of the last one on grains that may move and the void
-  /// fraction around them.
-  double step_limit(const grains::State& g, const flow::Solver& flow);
+  /// Longest step that the exchange bears [s], from the drag of the last one on grains that may move.
+  double step_limit(const grains::State& g) const;
 
   /// Solid volume fraction in cells [-] (spheres in the slab), smoothed by the kernel.
   void solid_fraction(const grains::State& g, base::Field& fraction);
@@ -124,7 +117,6 @@ public:
   void restore_ledger(const ImpulseLedger& ledger) { ledger_ = ledger; }
 
 private:
-  void list_moving(const grains::State& g);
   /// Weights of the grains that are not still.
   void locate(const grains::State& g);
   /// Takes grains that have woken out of the sum of those that are still.

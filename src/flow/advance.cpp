@@ -92,22 +92,21 @@ void Solver::start() {
 double Solver::step_limit() const {
   if (params_.algorithm == Algorithm::simple) return params_.max_step;
   const double courant = params_.courant, relief = params_.courant_y > 0 ? courant / params_.courant_y : 0.0;
-  const double rate =
-      relief > 0 ? passage_rate([&](double x, double y) { return std::max(x, y * relief); }, &at_c_.per_inertia)
-                 : passage_rate([](double x, double y) { return x + y; });
+  const double rate = relief > 0 ? passage_rate([&](double x, double y) { return std::max(x, y * relief); }, true)
+                                 : passage_rate([](double x, double y) { return x + y; });
   return rate > 0 ? std::min(params_.max_step, courant / rate) : params_.max_step;
 }
 
 template <class Both>
-double Solver::passage_rate(Both&& both, const base::SharedRows* per_inertia) const {
-  const double* per_dx = work_.per_dx.data() + 2;
+double Solver::passage_rate(Both&& both, bool by_what_cells_hold) const {
+  const double *per_dx = work_.per_dx.data() + 2, *one = work_.ones.row(0);
   return base::largest(0, mesh_.ny, partial_, 0.0, [&](int j) {
-    const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1);
-    const double* face = per_inertia ? work_.face_x.row(j) : work_.ones.row(j);
-    const double* cell = per_inertia ? per_inertia->row(j) : work_.ones.row(j);
-    const double per_dy = 1.0 / mesh_.dy(j);
+    const double *u = state.u.row(j), *v = state.v.row(j), *va = state.v.row(j + 1), per_dy = 1.0 / mesh_.dy(j);
+    const double *face = by_what_cells_hold ? work_.cut_x.row(j) : one,
+                 *holds = by_what_cells_hold ? mesh_.volume.row(j) : one;
     return base::vector_largest(0, mesh_.nx, 0.0, [&](int i) {
-      return both(std::max(face[i] * std::abs(u[i]), face[i + 1] * std::abs(u[i + 1])) * cell[i] * per_dx[i],
+      return both(std::max(face[i] * std::abs(u[i]), face[i + 1] * std::abs(u[i + 1])) * per_dx[i] /
+                      std::max(holds[i], inertia_least),
                   std::max(std::abs(v[i]), std::abs(va[i])) * per_dy);
     });
   });

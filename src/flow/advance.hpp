@@ -79,10 +79,10 @@ public:
 
 private:
   void set_pressure_coefficients();
-  /// Largest of both(|u|/dx, |v|/dy) [1/s]; with per_inertia, of the cells, what flows through a face along x is taken
-  /// over what the cell behind it holds, which is little where the pipe cuts it.
+  /// Largest of both(|u|/dx, |v|/dy) [1/s].  by_what_cells_hold: what flows along x into a cell that the pipe cuts is
+  /// taken over the part of the cell that is open, but for slivers.
   template <class Both>
-  double passage_rate(Both&& both, const base::SharedRows* per_inertia = nullptr) const;
+  double passage_rate(Both&& both, bool by_what_cells_hold = false) const;
   StepReport advance_projection(double dt);
   StepReport advance_simple(double dt);
   StepReport outer_iteration(double inverse_dt);

@@ -28,6 +28,8 @@ inline constexpr double volume_least = 1e-6;  ///< cells with less open volume c
 /// The same beside moving grains: their room changes with every step, and the pressure in slivers, which moves little
 /// water, answers with hundreds of kPa until the flow breaks down.  Costs the force on the pipe its second order.
 inline constexpr double volume_least_among_grains = 0.05;
+/// A volume holds at least so much over its widest opening [-]: a sliver would need a tiny step.
+inline constexpr double inertia_least = 0.5;
 inline constexpr double wall_distance_least =
     0.01;  ///< of a velocity from the pipe, in cells: friction of slivers stays finite [-]
 inline constexpr double thwaites_leaves = -0.09;  ///< theta^2/nu dU/ds where a laminar layer leaves (Thwaites 1949)

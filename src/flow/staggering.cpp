@@ -126,7 +126,7 @@ void Staggering::open_to(const Mesh& m, OpeningScratch& w) {
     for (int i = 0; i < m.nx; ++i) {
       const double widest =
           std::max(std::max(w.open_x(i, j), w.open_x(i + 1, j)), std::max(w.open_y(i, j), w.open_y(i, j + 1)));
-      w.inertia(i, j) = std::max({w.volume(i, j), w.open(i, j), 0.5 * widest});
+      w.inertia(i, j) = std::max({w.volume(i, j), w.open(i, j), inertia_least * widest});
       if (w.inertia(i, j) <= 0) w.inertia(i, j) = 1;  // solid: nothing moves, nothing divides by zero
       w.per_inertia(i, j) = 1.0 / w.inertia(i, j);
     }

@@ -166,7 +166,7 @@ void Simulation::release() {
 
 void Simulation::step() {
   const double grain_step = case_.grains.step;
-  const double limit = std::min(flow_.step_limit(), coupler_.step_limit(bed_.state, flow_));
+  const double limit = std::min(flow_.step_limit(), coupler_.step_limit(bed_.state));
   const int substeps = std::max(1, static_cast<int>(limit / grain_step));
   const double dt = substeps * grain_step;
   if (has_grains()) {

@@ -264,30 +264,12 @@ TEST(coupler, bounds_the_step_by_the_response_of_every_grain) {
   g.diameter.assign(count, d);
   g.id.resize(count);
   std::iota(g.id.begin(), g.id.end(), 0);
-  Coupler coupler(params, pair.solver, {d, 2650, 0.5, nu, count, 1});
+  const Coupler coupler(params, pair.solver, {d, 2650, 0.5, nu, count, 1});
   const double common = 1e-4, response = (2650 + 0.5 * rho) * base::sphere_volume(d) / common;
   g.fluid.beta.assign(count, common);
-  EXPECT_NEAR(coupler.step_limit(g, pair.solver), step_over_response * response, 1e-12 * response);
+  EXPECT_NEAR(coupler.step_limit(g), step_over_response * response, 1e-12 * response);
   g.fluid.beta[700] = 20 * common;
-  EXPECT_NEAR(coupler.step_limit(g, pair.solver), step_over_response * response / 20, 1e-12 * response);
-
-  // In a dense bed a grain that moves freely bounds it further.
-  base::Field voids(pair.solver.mesh().nx, pair.solver.mesh().ny, 0, 1.0);
-  voids.fill(0.4);
-  pair.solver.set_voidage(voids, 0);
-  EXPECT_NEAR(coupler.step_limit(g, pair.solver), step_over_response * response / 20, 1e-12 * response);
-  g.u[700] = 2 * free_way * d * 20 / response;
-  const double most = most_without_swing(0.4, rho / (2650 + 0.5 * rho));
-  EXPECT_LT(most, step_over_response);
-  EXPECT_NEAR(coupler.step_limit(g, pair.solver), most * response / 20, 1e-9 * response);
-}
-
-TEST(most_without_swing, falls_with_the_void_fraction) {
-  // By hand, r = 1.5, a third of a swing heard: 2 (1 - 0.5 / 3.15) / (1.5 + (3.75 + 1.8) / 3 - 1)
-  EXPECT_NEAR(most_without_swing(0.4, 1 / 3.15), 0.7160, 1e-3);
-  EXPECT_LT(most_without_swing(0.3, 1 / 3.15), 0.4);
-  EXPECT_GT(most_without_swing(0.55, 1 / 3.15), 2);
-  EXPECT_EQ(most_without_swing(0.9, 1 / 3.15), std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(coupler.step_limit(g), step_over_response * response / 20, 1e-12 * response);
 }
 
 TEST(coupler, tells_the_water_of_a_share_of_each_change_of_the_void_fraction) {

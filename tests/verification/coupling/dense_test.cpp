@@ -129,7 +129,7 @@ TEST(suspension, does_not_swing_in_the_longest_step) {
   for (int n = 0; n < 20; ++n) experiment.step(100);  // drag and with it the limit are those of grains at rest before
   double speed = g.v[middle], change = 0;
   for (int n = 0; n < 28; ++n) {
-    experiment.step(static_cast<int>(experiment.step_limit() / experiment.grain_step()));
+    experiment.step(static_cast<int>(experiment.coupler().step_limit(g) / experiment.grain_step()));
     change = g.v[middle] - std::exchange(speed, g.v[middle]);
   }
   EXPECT_NEAR(-speed / hindered_speed(1 - volume / (spacing * spacing * d), tank.viscosity), 1, 0.1);

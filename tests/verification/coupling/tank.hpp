@@ -46,9 +46,6 @@ public:
     coupler_.collect(bed_.state, solver_, dt);
   }
 
-  /// Longest step that the exchange bears [s].
-  double step_limit() { return coupler_.step_limit(bed_.state, solver_); }
-
   const flow::Solver& solver() const { return solver_; }
   const grains::Bed& bed() const { return bed_; }
   const Coupler& coupler() const { return coupler_; }
