@@ -80,7 +80,7 @@ void check_count(const Bed& bed) {
 void advance(Bed& bed, int steps) {
   check_sizes(bed);
   bed.records.call_began = bed.steps;
-  Sweep constants = make_sweep(bed.params, bed.pipe, bed.state.count());
+  const Sweep constants = make_sweep(bed.params, bed.pipe, bed.state.count());
   const int between_looks = steps_between_looks(bed.params);
   prepare_sleep(bed);
   if (!lists_hold(bed.state, bed.contacts, constants.reach, bed.pipe)) {

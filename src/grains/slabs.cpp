@@ -15,8 +15,6 @@ namespace {
 
 /// Slices that go into a slab together: neighbours in the order of the grains.
 constexpr int slices_per_patch = 8;
-/// Share of the half skin that grains may go between two looks at the lists.
-constexpr double slack = 0.2;
 /// Slabs narrower than a few rows of grains would be stepped one by one for nothing; so many are enough to share out.
 constexpr int most_slabs = 1 << 14;
 
@@ -116,13 +114,13 @@ void tell_blocks(Records& r) {
   }
 }
 
-/// How far along x or y a grain awake may go in a time [m]: with twice its speed and as the fluid and gravity, and no
-/// contact, push it; infinite when a number is not finite.
-double furthest_way(const Sweep& k, Records& r, double time) {
+/// How far from where it was listed a grain awake may be after a time [m]: with twice its speed and as the fluid and
+/// gravity, and no contact, push it; infinite when a number is not finite.
+double furthest(const Sweep& k, const Contacts& c, Records& r, double time) {
   const int slices = static_cast<int>(r.awake.size());
   const double push_r3 = k.kick_r3 / k.dt, gravity = std::abs(k.gravity);
   return base::largest(0, static_cast<int>(r.moved.size()), r.partial, 0.0, [&](int block) {
-    double furthest = 0;
+    double most = 0;
     for (int n = block * slices_per_block; n < std::min(slices, (block + 1) * slices_per_block); ++n) {
       const Own& own = r.own[r.awake[n]];
       const int begin = r.awake[n] * lanes;
@@ -130,12 +128,14 @@ double furthest_way(const Sweep& k, Records& r, double time) {
         const Place& at = r.place[begin + l];
         const Motion& motion = r.motion[begin + l];
         const double push = push_r3 * (std::abs(own.push_x[l]) + std::abs(own.push_y[l])) / base::cube(at.r);
-        const double speed = std::abs(motion.u) + std::abs(motion.v) + 0.0 * (at.x + at.y + at.w);
-        const double way = time * (2 * speed + time * (push + gravity));
-        if (!(way <= furthest)) furthest = std::isnan(way) ? std::numeric_limits<double>::infinity() : way;
+        const double speed = std::abs(motion.u) + std::abs(motion.v) + 0.0 * at.w;
+        const double gone = std::abs(nearest_image(at.x - c.x_built[begin + l], k.reach.length)) +
+                            std::abs(at.y - c.y_built[begin + l]);
+        const double way = gone + time * (2 * speed + time * (push + gravity));
+        if (!(way <= most)) most = std::isnan(way) ? std::numeric_limits<double>::infinity() : way;
       }
     }
-    return furthest;
+    return most;
   });
 }
 
@@ -158,16 +158,12 @@ void list_awake(Records& r, const State& s, const Contacts& c, const Reach& reac
   r.border_known = false;
 }
 
-int plan_steps(Sweep& k, const Contacts& c, Records& r, std::int64_t bed_steps, bool first, int most) {
-  const double half_skin = 0.5 * k.reach.skin;
-  k.leash = half_skin;
+int plan_steps(const Sweep& k, const Contacts& c, Records& r, std::int64_t bed_steps, bool first, int most) {
   const int steps = std::min(most, most_steps_at_once);
   if (c.refreshed > 0 || steps < 2 || (!first && bed_steps < r.plan_at)) return 1;
-  const bool calm = furthest_way(k, r, steps * k.dt) < slack * half_skin;
+  const bool calm = furthest(k, c, r, steps * k.dt) < k.leash;
   r.plan_at = bed_steps + (calm ? steps : most_steps_at_once);
-  if (!calm) return 1;
-  k.leash = (1 - slack) * half_skin;
-  return steps;
+  return calm ? steps : 1;
 }
 
 bool sweep(const Sweep& k, Contacts& c, Records& r, int steps) {

@@ -19,10 +19,10 @@ inline constexpr int most_steps_at_once = 16;
 /// Who is awake, slab by slab, by what is known of who sleeps.
 void list_awake(Records& r, const State& s, const Contacts& c, const Reach& reach);
 
-/// How many steps may be made, at most `most`, before grains must be looked at again: as many as the fastest may go
-/// with twice its speed, pushed by fluid and gravity, within the slack that Sweep::leash leaves then; else 1.  The
-/// fastest is looked for when advance is called, `first`, and some steps later again.  Sets the leash.
-int plan_steps(Sweep& k, const Contacts& c, Records& r, std::int64_t bed_steps, bool first, int most);
+/// How many steps may be made, at most `most`, before grains must be looked at again: all of them when no grain awake
+/// gets off its leash meanwhile, even with twice its speed, pushed by fluid and gravity; else 1.  Looked for when
+/// advance is called, `first`, and some steps later again.
+int plan_steps(const Sweep& k, const Contacts& c, Records& r, std::int64_t bed_steps, bool first, int most);
 
 /// `steps` steps of every grain awake, forces and motion in one pass over the slices (symplectic: velocities, then
 /// positions):
