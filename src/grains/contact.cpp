@@ -47,6 +47,7 @@ void fill_slice(const State& s, int slice, std::int64_t steps, Records& r) {
 
 void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r, base::Arena& memory) {
   const int n = s.count(), slices = c.slices(), last = nobody(n);
+  r.motion_known = false;
   if (!r.hold(c)) {
     const std::size_t places = last + 1, owners = slices;
     memory.divide<Place, Place, Motion, Motion, Own, std::int64_t>({r.place, places}, {r.place_next, places},

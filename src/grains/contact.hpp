@@ -55,6 +55,7 @@ struct Records {
   std::vector<std::int32_t> slab_first;     ///< of each slab: where its slices begin in `awake`; and the end
   std::vector<std::uint8_t> slab_moved;     ///< as `moved`, of each slab
   std::int64_t plan_at = 0;                 ///< step of the bed at which the fastest grain is looked for again
+  bool motion_known = false;                ///< motion_next holds the motion before the last step
   std::vector<double> partial;              ///< scratch
 
   /// Whether they have been filled since the lists were made.

@@ -114,29 +114,38 @@ void tell_blocks(Records& r) {
   }
 }
 
-/// How far from where it was listed a grain awake may be after a time [m]: with twice its speed and as the fluid and
-/// gravity, and no contact, push it; infinite when a number is not finite.
+/// How far from where it was listed any grain awake may be after a time [m]: a contact hands it at most twice the speed
+/// of the fastest; besides, twice what pushed it in the last step and all of fluid and gravity push it on.  Infinite
+/// when a number is not finite.
 double furthest(const Sweep& k, const Contacts& c, Records& r, double time) {
-  const int slices = static_cast<int>(r.awake.size());
-  const double push_r3 = k.kick_r3 / k.dt, gravity = std::abs(k.gravity);
-  return base::largest(0, static_cast<int>(r.moved.size()), r.partial, 0.0, [&](int block) {
-    double most = 0;
+  constexpr double without_end = std::numeric_limits<double>::infinity();
+  const int slices = static_cast<int>(r.awake.size()), blocks = static_cast<int>(r.moved.size());
+  const double push_r3 = k.kick_r3 / k.dt, gravity = std::abs(k.gravity), per_dt = 1.0 / k.dt;
+  r.partial.assign(2 * static_cast<std::size_t>(blocks), 0.0);
+  base::for_each_item(0, blocks, [&](int block) {
+    double fastest = 0, pushed = 0;
     for (int n = block * slices_per_block; n < std::min(slices, (block + 1) * slices_per_block); ++n) {
       const Own& own = r.own[r.awake[n]];
       const int begin = r.awake[n] * lanes;
       for (int l = 0; l < std::min(lanes, k.count - begin); ++l) {
         const Place& at = r.place[begin + l];
-        const Motion& motion = r.motion[begin + l];
+        const Motion &motion = r.motion[begin + l], &before = r.motion_next[begin + l];
         const double push = push_r3 * (std::abs(own.push_x[l]) + std::abs(own.push_y[l])) / base::cube(at.r);
-        const double speed = std::abs(motion.u) + std::abs(motion.v) + 0.0 * at.w;
+        const double last = per_dt * (std::abs(motion.u - before.u) + std::abs(motion.v - before.v));
         const double gone = std::abs(nearest_image(at.x - c.x_built[begin + l], k.reach.length)) +
                             std::abs(at.y - c.y_built[begin + l]);
-        const double way = gone + time * (2 * speed + time * (push + gravity));
-        if (!(way <= most)) most = std::isnan(way) ? std::numeric_limits<double>::infinity() : way;
+        const double speed = std::abs(motion.u) + std::abs(motion.v) + 0.0 * at.w;
+        const double way = gone + base::square(time) * (2 * last + push + gravity);
+        if (!(speed <= fastest)) fastest = std::isnan(speed) ? without_end : speed;
+        if (!(way <= pushed)) pushed = std::isnan(way) ? without_end : way;
       }
     }
-    return most;
+    r.partial[2 * block] = fastest, r.partial[2 * block + 1] = pushed;
   });
+  double fastest = 0, pushed = 0;
+  for (int block = 0; block < blocks; ++block)
+    fastest = std::max(fastest, r.partial[2 * block]), pushed = std::max(pushed, r.partial[2 * block + 1]);
+  return pushed + 2 * fastest * time;
 }
 
 }  // namespace
@@ -155,12 +164,13 @@ void list_awake(Records& r, const State& s, const Contacts& c, const Reach& reac
     if (r.asleep[slice] == 0) r.awake[end[slab_of(slice) + 1]++] = slice;
   r.moved.assign((r.awake.size() + slices_per_block - 1) / slices_per_block, 0);
   r.slab_moved.assign(r.slabs, 0);
-  r.border_known = false;
+  r.border_known = r.motion_known = false;
 }
 
 int plan_steps(const Sweep& k, const Contacts& c, Records& r, std::int64_t bed_steps, bool first, int most) {
   const int steps = std::min(most, most_steps_at_once);
-  if (c.refreshed > 0 || steps < 2 || (!first && bed_steps < r.plan_at)) return 1;
+  if (first) r.plan_at = bed_steps;
+  if (c.refreshed > 0 || steps < 2 || !r.motion_known || bed_steps < r.plan_at) return 1;
   const bool calm = furthest(k, c, r, steps * k.dt) < k.leash;
   r.plan_at = bed_steps + (calm ? steps : most_steps_at_once);
   return calm ? steps : 1;
@@ -181,6 +191,7 @@ bool sweep(const Sweep& k, Contacts& c, Records& r, int steps) {
     else
       step_all(k, c, r), ++done;
   }
+  r.motion_known = true;
   if (deepest > 1) tell_blocks(r);
   return std::none_of(r.moved.begin(), r.moved.end(), [](std::uint8_t moved) { return moved != 0; });
 }

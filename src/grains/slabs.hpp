@@ -20,8 +20,9 @@ inline constexpr int most_steps_at_once = 16;
 void list_awake(Records& r, const State& s, const Contacts& c, const Reach& reach);
 
 /// How many steps may be made, at most `most`, before grains must be looked at again: all of them when no grain awake
-/// gets off its leash meanwhile, even with twice its speed, pushed by fluid and gravity; else 1.  Looked for when
-/// advance is called, `first`, and some steps later again.
+/// gets off its leash meanwhile, even when it meets the fastest and is pushed twice as hard as in the step before; else
+/// 1, as in the first step after the records were filled.  Looked for when advance is called, `first`, and some steps
+/// later again.
 int plan_steps(const Sweep& k, const Contacts& c, Records& r, std::int64_t bed_steps, bool first, int most);
 
 /// `steps` steps of every grain awake, forces and motion in one pass over the slices (symplectic: velocities, then
