@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numeric>
 #include <random>
 
 #include "base/fault.hpp"
@@ -23,19 +22,22 @@ constexpr int looks_for_a_trend = 150;  ///< a bed that gets no slower from one 
 /// Grains that may go on trembling in a bed at rest, of all [-]: one that is wedged between more neighbours, or fixed
 /// grains of the floor, than an explicit dashpot can damp changes its spin with every step and never stops.
 constexpr double share_that_may_tremble = 1e-3;
+/// Speed to which they may shake the others, over settled_speed [-]: nothing stops the sound of a dense bed, in which
+/// grains stay where they are.
+constexpr double shaken_by_them = 10;
 constexpr double least_above_cut =
     1.5;  ///< of the mean level of a bed above the level it is cut to, over the largest d [-]
 
 /// Time in which a grain falls its own diameter [s]: the measure of everything here.
 double fall_time(const Params& p) { return std::sqrt(2 * p.diameter / submerged_gravity(p)); }
 
-/// Mean speed of all grains but the fastest, a share of all [m/s].
-double mean_speed_without(const State& s, double share) {
+/// Speed of the fastest grain when a share of all, the fastest, is left out [m/s].
+double max_speed_without(const State& s, double share) {
   std::vector<double> speed(s.count());
   for (int i = 0; i < s.count(); ++i) speed[i] = std::hypot(s.u[i], s.v[i]);
-  const auto kept = speed.end() - static_cast<std::ptrdiff_t>(share * s.count());
-  std::nth_element(speed.begin(), kept, speed.end());
-  return std::accumulate(speed.begin(), kept, 0.0) / std::max<std::ptrdiff_t>(1, kept - speed.begin());
+  const auto fastest = speed.end() - 1 - static_cast<std::ptrdiff_t>(share * s.count());
+  std::nth_element(speed.begin(), fastest, speed.end());
+  return *fastest;
 }
 
 /// A fluid at rest that slows every grain down within `time`; none for time = 0.
@@ -143,7 +145,8 @@ std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look) {
     if (on_look) on_look(rows.back());
     const bool slow = rows.back().mean_speed < p.settled_speed;
     const bool shaking = !slow && shakes(looks_for_a_trend);
-    const bool trembling = shaking && mean_speed_without(bed.state, share_that_may_tremble) < p.settled_speed;
+    const bool trembling =
+        shaking && max_speed_without(bed.state, share_that_may_tremble) < shaken_by_them * p.settled_speed;
     calm = (slow || trembling) && now > time ? calm + 1 : 0;
     if (calm == looks_in_a_row) {
       if (!thick) break;
