@@ -36,8 +36,8 @@ Bed scattered(const Params& given);
 /// settled_speed, then in none, until it has stayed so for ten looks in a row.  A bed that gets no slower is at rest,
 /// too, when all but one grain in a thousand are below ten times settled_speed: single wedged ones may tremble for ever
 /// and shake the others a little.  Fluid forces and impulses are zero afterwards.  Throws Fault (stopped by limit) with
-/// the last speeds and what to do when settle_time passes before, or already when more of the bed shakes without getting
-/// slower.
+/// the last speeds and what to do when settle_time passes before, or already when more of the bed shakes without
+/// getting slower.
 std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look = {});
 
 /// Brings a bed at rest to a level [m]: heaps more grains onto it where its mean level is not well above, takes away
