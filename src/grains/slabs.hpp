@@ -14,7 +14,7 @@
 namespace livebed::grains {
 
 /// Most steps made at once.
-inline constexpr int most_steps_at_once = 16;
+inline constexpr int most_steps_at_once = 32;
 
 /// Who is awake, slab by slab, by what is known of who sleeps.
 void list_awake(Records& r, const State& s, const Contacts& c, const Reach& reach);
