@@ -125,6 +125,14 @@ std::vector<double> bed_line(const SolidFraction& solid, double packed) {
   const SamplingGrid& grid = solid.grid();
   const PipeCircle& pipe = solid.pipe();
   const double half = packed / 2;
+  const int pocket = static_cast<int>(solid.reach() / grid.hy);  // cells, highest
+  const auto goes_on_above = [&](int i, int j) {
+    for (int above = j + 1; above <= std::min(grid.ny - 1, j + pocket); ++above) {
+      if (solid.barred(grid.x(i), grid.y(above))) return false;
+      if (solid.values()(i, above) >= half) return true;
+    }
+    return false;
+  };
   std::vector<double> line(static_cast<std::size_t>(grid.nx));
   for (int i = 0; i < grid.nx; ++i) {
     double level = 0;  // the floor, unless sand lies on it
@@ -142,6 +150,7 @@ std::vector<double> bed_line(const SolidFraction& solid, double packed) {
         through_pipe = false;
         continue;
       }
+      if (below >= 0 && !through_pipe && goes_on_above(i, j)) continue;
       if (below >= 0 && through_pipe) {
         // Beside the pipe's flank, where no grain fits either, the underside is taken at its outermost point.
         level = pipe.y - std::sqrt(std::max(0.0, square(pipe.diameter / 2) - square(grid.x(i) - pipe.x)));

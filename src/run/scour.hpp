@@ -42,6 +42,8 @@ public:
 
   const SamplingGrid& grid() const { return grid_; }
   const PipeCircle& pipe() const { return pipe_; }
+  /// Half-width of the kernel [m].
+  double reach() const { return reach_; }
   /// Is (x, y) inside the pipe or closer to it than a grain's centre can come?
   bool barred(double x, double y) const;
   /// Smoothed fraction [-], nx x ny, without ghosts.
@@ -62,9 +64,9 @@ private:
 };
 
 /// Height y_b [m] of the bed in each sampling column: the first place, going up from the floor, where the fraction
-/// falls below half of the packed value (linear between cells), so grains in suspension above do not count.  Cells
-/// inside the pipe are skipped: sand below and none above ends at the pipe's underside, sand on both sides goes on
-/// through it.
+/// falls below half of the packed value (linear between cells), so grains in suspension above do not count.  A pocket
+/// of water no higher than the kernel's half-width, with bed above it, is part of the bed.  Cells inside the pipe are
+/// skipped: sand below and none above ends at the pipe's underside, sand on both sides goes on through it.
 std::vector<double> bed_line(const SolidFraction& solid, double packed);
 
 /// Mean level of a line [m] outside the pipe's span: the original bed when the line is that of t = 0.

@@ -169,6 +169,24 @@ TEST(scour, grains_in_suspension_do_not_lift_the_line) {
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(after[i], before[i], 0.25 * d) << i;
 }
 
+TEST(scour, a_pocket_of_water_in_the_bed_is_part_of_it_and_a_cave_is_not) {
+  const Discs full = bed_below([](double) { return level; });
+  const auto with_hollow = [&](double height) {
+    Discs discs;
+    for (std::size_t n = 0; n < full.x.size(); ++n)
+      if (std::abs(full.x[n] - 0.35) > 2 * d || std::abs(full.y[n] - level / 2) > height / 2)
+        discs.add(full.x[n], full.y[n]);
+    return sampled(discs, {});
+  };
+  const double packed = sampled(full, {}).packed(2 * d, level / 4);
+  const SolidFraction pocket = with_hollow(3 * d), cave = with_hollow(8 * d);
+  const int middle = static_cast<int>(0.35 / pocket.grid().hx);
+  const int at = static_cast<int>(level / 2 / pocket.grid().hy);
+  ASSERT_LT(pocket.values()(middle, at), packed / 2);
+  EXPECT_NEAR(bed_line(pocket, packed)[middle], level, 0.3 * d);
+  EXPECT_NEAR(bed_line(cave, packed)[middle], level / 2 - 4 * d, d);
+}
+
 TEST(scour, the_pipe_is_neither_bed_nor_water) {
   // A pipe on the bed: the line passes below it at the level of the bed.
   const Discs flat = bed_below([](double) { return level; });
