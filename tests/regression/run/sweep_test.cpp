@@ -97,9 +97,10 @@ TEST_F(Sweep, killed_leaves_runs_that_stop_by_themselves) {
   const pid_t child = begin_long("50");
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
-  const auto stopped = [&] {
-    return fs::exists(*this / "swept/runs/seed=1/summary.json") && fs::exists(*this / "swept/runs/seed=2/summary.json");
+  const auto left = [&](const fs::path& run) {  // "running" is the last file that a run removes
+    return fs::exists(run / "summary.json") && !fs::exists(run / "running");
   };
+  const auto stopped = [&] { return left(*this / "swept/runs/seed=1") && left(*this / "swept/runs/seed=2"); };
   for (int n = 0; n < 2000 && !stopped(); ++n) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_TRUE(stopped());
 }
