@@ -35,10 +35,10 @@ struct OutputParams {
 };
 
 /// The sand at the ends of the box.  periodic: what leaves through one end comes in at the other (the paper);
-/// equilibrium: what leaves is gone, and what an endless approach would bring comes in; none: nothing does.
+/// equilibrium: what leaves is gone, and what the approach has lost of its sand comes in; none: nothing does.
 enum class Supply { periodic, equilibrium, none };
-/// The stretch whose transport comes in: from and to, of the way from the inlet to the pipe or, without one, of the
-/// box.
+/// The approach goes from the inlet to feed_to; what comes in is like what moves there from feed_from on: of the way
+/// from the inlet to the pipe or, without one, of the box.
 inline constexpr double feed_from = 0.25, feed_to = 0.5;
 /// It begins at least so far behind the inlet [d].
 inline constexpr double feed_behind_inlet = 16;

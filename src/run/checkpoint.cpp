@@ -16,7 +16,7 @@ namespace livebed::run {
 
 namespace {
 
-constexpr std::int64_t format_version = 7;
+constexpr std::int64_t format_version = 8;
 
 /// Calls visit(name, field) for every field of the flow that the next step reads.
 template <class FlowState, class Visit>

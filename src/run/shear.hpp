@@ -6,8 +6,8 @@
 namespace livebed::run {
 
 /// Shields parameter of the flow's total shear stress at the original bed level [m], upstream of the pipe: viscous and
-/// turbulent stress on that plane, momentum carried through it, and drag on the grains above it.  Without grains that
-/// of the friction on the floor.
+/// turbulent stress on that plane, momentum carried through it (before a pipe: beside what the mean flow carries), and
+/// drag on the grains above it.  Without grains that of the friction on the floor.
 double measured_shields(const casefile::Case& c, const flow::Solver& flow, double level);
 
 /// Makes the inlet of the next step from the flow itself (current.profile = "recycled"): the mean over the box of what

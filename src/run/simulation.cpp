@@ -162,6 +162,7 @@ void Simulation::release() {
   clock_.released = true;
   coupler_.let_go(bed_.state);
   std::fill(bed_.state.laps.begin(), bed_.state.laps.end(), 0);
+  supply_.begin(bed_.state);
 }
 
 void Simulation::step() {
@@ -183,7 +184,8 @@ void Simulation::step() {
     grain_force_ = (1.0 / (dt * case_.grains.diameter)) * bed_.pipe_impulse;
     Stopwatch watch(wall_.exchange);
     coupler_.collect(bed_.state, flow_, dt);
-    supply_.pass_ends(bed_, coupler_, dt);
+    const double rise = case_.flow.current.rise;
+    supply_.pass_ends(bed_, coupler_, dt, case_.theta * (rise > 0 ? base::square(risen_share(time(), rise)) : 1.0));
   }
   last_step_ = dt;
   ++clock_.flow_steps;

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "base/math.hpp"
+#include "base/sediment.hpp"
 #include "base/sphere.hpp"
 
 namespace livebed::run {
@@ -17,6 +18,9 @@ constexpr double way_between_looks = 16;
 constexpr double reach_of_ends = 1.5 * way_between_looks;
 constexpr double lift = 0.25;  ///< a newcomer who would lie on others is set higher by this [d]
 
+/// A grain by the mean one: disks.
+double share_of(double diameter, double mean) { return base::square(diameter / mean); }
+
 double unit(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1.0p-53; }
 
 }  // namespace
@@ -26,6 +30,8 @@ Supply::Supply(const casefile::Case& c)
       length_(c.flow.mesh.length),
       diameter_(c.grains.diameter),
       speed_(c.flow.current.mean_speed),
+      grains_per_flux_(std::sqrt((c.grains.density / c.flow.density - 1) * c.grains.gravity / c.grains.diameter) * 6 /
+                       base::pi),
       seed_(c.grains.seed) {
   const double way = c.flow.pipe.present ? c.flow.pipe.x : length_;
   from_ = casefile::feed_from * way, to_ = casefile::feed_to * way;
@@ -33,9 +39,27 @@ Supply::Supply(const casefile::Case& c)
 
 double Supply::margin() const { return goes_round() ? 0.0 : reach_of_ends * diameter_; }
 
-void Supply::pass_ends(grains::Bed& bed, coupling::Coupler& coupler, double dt) {
+/// Sand between the inlet and the end of the approach without those that leave (in rising order), in mean grains.
+double Supply::in_approach(const grains::State& s, const std::vector<int>& leaving) const {
+  double sum = 0;
+  std::size_t next = 0;
+  for (int k = 0; k < s.count(); ++k) {
+    if (next < leaving.size() && leaving[next] == k)
+      ++next;
+    else if (s.x[k] < to_)
+      sum += share_of(s.diameter[k], diameter_);
+  }
+  return sum;
+}
+
+void Supply::begin(const grains::State& s) {
+  if (kind_ == casefile::Supply::equilibrium) state_.stretch = in_approach(s, {});
+}
+
+void Supply::pass_ends(grains::Bed& bed, coupling::Coupler& coupler, double dt, double theta) {
   if (goes_round()) return;
   state_.time += dt;
+  state_.owed += dt * grains_per_flux_ * base::meyer_peter_mueller(theta);
   if (state_.time * speed_ < way_between_looks * diameter_) return;
   const double time = std::exchange(state_.time, 0.0);
   grains::State& s = bed.state;
@@ -57,19 +81,12 @@ void Supply::pass_ends(grains::Bed& bed, coupling::Coupler& coupler, double dt) 
 std::vector<grains::Newcomer> Supply::feed(const grains::State& s, const std::vector<int>& leaving, double time) {
   std::vector<grains::Newcomer> entering;
   if (kind_ != casefile::Supply::equilibrium) return entering;
-  // Grains that pass a line of the stretch in a second: the mean over the stretch of their speeds over its length.
-  std::vector<int> moving;
-  std::vector<double> passed;  // by these and all before
-  double back = 0, sum = 0;
-  for (int k = 0; k < s.count(); ++k) {
-    if (s.x[k] < from_ || s.x[k] >= to_ || s.u[k] == 0) continue;
-    if (s.u[k] < 0) {
-      back -= s.u[k];
-      continue;
-    }
-    moving.push_back(k), passed.push_back(sum += s.u[k]);
-  }
-  state_.owed += time * (sum - back) / (to_ - from_);
+  std::vector<int> moving;     // downstream, in the stretch whose grains newcomers are like
+  std::vector<double> passed;  // speeds of these and all before
+  double sum = 0;
+  for (int k = 0; k < s.count(); ++k)
+    if (s.x[k] >= from_ && s.x[k] < to_ && s.u[k] > 0) moving.push_back(k), passed.push_back(sum += s.u[k]);
+  state_.owed = std::min(state_.owed, std::max(0.0, state_.stretch - in_approach(s, leaving)));
 
   std::vector<base::Vec2> at;  // of the grains near the inlet, and how large they are
   std::vector<double> wide;
@@ -84,7 +101,7 @@ std::vector<grains::Newcomer> Supply::feed(const grains::State& s, const std::ve
       at.push_back({x, s.y[k]}), wide.push_back(s.diameter[k]);
   }
   std::mt19937_64 generator(seed_ * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(state_.looks));
-  while (state_.owed >= 1 && !state_.waiting.empty() && sum > 0) {
+  while (state_.owed > 0 && !state_.waiting.empty() && sum > 0) {
     const auto chosen = std::upper_bound(passed.begin(), passed.end(), unit(generator) * sum);
     const int like = moving[std::min<std::ptrdiff_t>(chosen - passed.begin(), std::ssize(moving) - 1)];
     // It has passed the inlet some time since the last look.
@@ -105,7 +122,7 @@ std::vector<grains::Newcomer> Supply::feed(const grains::State& s, const std::ve
     at.push_back({g.x, g.y}), wide.push_back(g.diameter);
     state_.waiting.erase(state_.waiting.begin());
     state_.waiting_diameter.erase(state_.waiting_diameter.begin());
-    state_.owed -= 1;
+    state_.owed -= share_of(g.diameter, diameter_);
     entering.push_back(g);
   }
   return entering;
