@@ -6,6 +6,8 @@
 #include <random>
 
 #include "base/fault.hpp"
+#include "base/loops.hpp"
+#include "base/math.hpp"
 #include "grains/measures.hpp"
 #include "grains/sizes.hpp"
 
@@ -22,8 +24,8 @@ constexpr int looks_for_a_trend = 150;  ///< a bed that gets no slower from one 
 /// Grains that may go on trembling in a bed at rest, of all [-]: one that is wedged between more neighbours, or fixed
 /// grains of the floor, than an explicit dashpot can damp changes its spin with every step and never stops.
 constexpr double share_that_may_tremble = 1e-3;
-/// Speed to which they may shake the others, over settled_speed [-]: nothing stops the sound of a dense bed, in which
-/// grains stay where they are.
+/// Speed to which they may shake the others (root mean square), over settled_speed [-]: nothing stops the sound of a
+/// dense bed, in which grains stay where they are.
 constexpr double shaken_by_them = 10;
 constexpr double least_above_cut =
     1.5;  ///< of the mean level of a bed above the level it is cut to, over the largest d [-]
@@ -31,13 +33,14 @@ constexpr double least_above_cut =
 /// Time in which a grain falls its own diameter [s]: the measure of everything here.
 double fall_time(const Params& p) { return std::sqrt(2 * p.diameter / submerged_gravity(p)); }
 
-/// Speed of the fastest grain when a share of all, the fastest, is left out [m/s].
-double max_speed_without(const State& s, double share) {
-  std::vector<double> speed(s.count());
-  for (int i = 0; i < s.count(); ++i) speed[i] = std::hypot(s.u[i], s.v[i]);
-  const auto fastest = speed.end() - 1 - static_cast<std::ptrdiff_t>(share * s.count());
-  std::nth_element(speed.begin(), fastest, speed.end());
-  return *fastest;
+/// Root mean square of the speeds when a share of all grains, the fastest, is left out [m/s].
+double rms_speed_without(const State& s, double share) {
+  std::vector<double> squares(s.count());
+  for (int i = 0; i < s.count(); ++i) squares[i] = base::square(s.u[i]) + base::square(s.v[i]);
+  const auto left = static_cast<std::ptrdiff_t>(share * s.count());
+  std::nth_element(squares.begin(), squares.end() - 1 - left, squares.end());
+  const double sum = base::vector_sum(0, s.count() - static_cast<int>(left), [&](int i) { return squares[i]; });
+  return std::sqrt(sum / static_cast<double>(s.count() - left));
 }
 
 /// A fluid at rest that slows every grain down within `time`; none for time = 0.
@@ -146,7 +149,7 @@ std::vector<SettleRow> settle(Bed& bed, const OnLook& on_look) {
     const bool slow = rows.back().mean_speed < p.settled_speed;
     const bool shaking = !slow && shakes(looks_for_a_trend);
     const bool trembling =
-        shaking && max_speed_without(bed.state, share_that_may_tremble) < shaken_by_them * p.settled_speed;
+        shaking && rms_speed_without(bed.state, share_that_may_tremble) < shaken_by_them * p.settled_speed;
     calm = (slow || trembling) && now > time ? calm + 1 : 0;
     if (calm == looks_in_a_row) {
       if (!thick) break;
