@@ -59,7 +59,7 @@ void Supply::begin(const grains::State& s) {
 void Supply::pass_ends(grains::Bed& bed, coupling::Coupler& coupler, double dt, double theta) {
   if (goes_round()) return;
   state_.time += dt;
-  state_.owed += dt * grains_per_flux_ * base::meyer_peter_mueller(theta);
+  if (kind_ == casefile::Supply::equilibrium) state_.owed += dt * grains_per_flux_ * base::meyer_peter_mueller(theta);
   if (state_.time * speed_ < way_between_looks * diameter_) return;
   const double time = std::exchange(state_.time, 0.0);
   grains::State& s = bed.state;

@@ -34,6 +34,7 @@ TEST(supply, none_lets_sand_out_and_nothing_in) {
   const SupplyState& ends = sim.supply().state();
   EXPECT_GT(ends.left, 3);
   EXPECT_EQ(ends.entered, 0);
+  EXPECT_EQ(ends.owed, 0);
   EXPECT_EQ(std::ssize(ends.waiting), ends.left);
   EXPECT_EQ(sim.bed().state.count() + ends.left, sim.resolved().grains.count);
 }
