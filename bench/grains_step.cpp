@@ -76,17 +76,19 @@ BENCHMARK(kernels)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
-/// The same with the other contact law and with rolling resistance: 0 the paper's, 1 Hooke's.
+/// The same with the other contact law, with rolling resistance and in mixed precision: 0 the paper's, 1 Hooke's.
 void laws(benchmark::State& state) {
   Bed bed = bed_of(static_cast<int>(state.range(0)), state.range(1) == 0 ? Law::paper : Law::hooke,
                    state.range(2) == 0 ? 0.0 : 0.3);
+  if (state.range(3) != 0) bed.params.precision = Precision::mixed;
+  advance(bed, 2000);
   const int steps = 50;
   for ([[maybe_unused]] auto pass : state) advance(bed, steps);
   report(state, bed, static_cast<double>(steps * state.iterations()));
 }
 BENCHMARK(laws)
-    ->ArgNames({"grains", "hooke", "rolling"})
-    ->ArgsProduct({{6240, 199680}, {0, 1}, {0, 1}})
+    ->ArgNames({"grains", "hooke", "rolling", "mixed"})
+    ->ArgsProduct({{6240, 199680}, {0, 1}, {0, 1}, {0, 1}})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 

@@ -129,7 +129,7 @@ void write_bed(const grains::Bed& bed, const std::string& path) {
   io::write_atomically(path, j.dump());
 }
 
-nlohmann::ordered_json bench_grains(int count, const std::string& bed_file) {
+nlohmann::ordered_json bench_grains(int count, bool mixed, const std::string& bed_file) {
   // A bed of 26 layers packed once over a short length, then laid side by side.  At rest its lists would live for ever:
   // they are rebuilt as often as those of a bed under scour.
   constexpr int steps_a_list = 100;
@@ -141,6 +141,7 @@ nlohmann::ordered_json bench_grains(int count, const std::string& bed_file) {
   const grains::Packing packing = grains::pack(params);
   const double memory_before = peak_memory();
   grains::Bed bed = grains::side_by_side(packing.bed, std::max(1, static_cast<int>(std::lround(count / 1560.0))));
+  if (mixed) bed.params.precision = grains::Precision::mixed;
   const grains::Reach reach = grains::reach_of(bed.params);
   // The histories build up; a large bed gets fewer steps, or the measurement would take minutes.
   grains::advance(bed, static_cast<int>(std::clamp(4e8 / bed.state.count(), 100.0, 2000.0)));
@@ -158,6 +159,7 @@ nlohmann::ordered_json bench_grains(int count, const std::string& bed_file) {
   j["grains"] = bed.state.count();
   j["threads"] = base::threads();
   j["kernels"] = grains::kernels().name;
+  j["precision"] = mixed ? "mixed" : "double";
   j["grain_steps_per_second"] = steps_a_list * static_cast<double>(bed.state.count()) / times[times.size() / 2];
   j["bytes_per_grain"] = (peak_memory() - memory_before) / bed.state.count();
   j["contacts_per_grain"] = grains::measure_contacts(bed).per_grain;
@@ -185,7 +187,7 @@ void add_bench(CLI::App& app, Action& chosen) {
     double cells = 390000;
     int grains = 6240;
     std::string bed;
-    bool json = false;
+    bool mixed = false, json = false;
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* flow = verb->add_subcommand("flow", "k-epsilon flow past a cut pipe, e/D 0.3, in a box of 30 D x 3.5 D");
@@ -195,9 +197,11 @@ void add_bench(CLI::App& app, Action& chosen) {
   CLI::App* grains = verb->add_subcommand("grains", "a settled bed, its lists rebuilt as in a moving one");
   grains->add_option("--grains", a->grains, "number of grains, about")->check(CLI::Range(1560, 10000000));
   grains->add_option("--bed", a->bed, "file to write the settled bed and its constants to, for other codes");
+  grains->add_flag("--mixed", a->mixed, "velocities and forces in single precision (grains.precision = mixed)");
   grains->add_flag("--json", a->json, "tell it as JSON");
-  grains->callback(
-      [a, &chosen] { chosen = [a] { return tell(bench_grains(a->grains, a->bed), a->json), base::Exit::ok; }; });
+  grains->callback([a, &chosen] {
+    chosen = [a] { return tell(bench_grains(a->grains, a->mixed, a->bed), a->json), base::Exit::ok; };
+  });
 }
 
 }  // namespace livebed::app

@@ -96,6 +96,11 @@ void add_grains(std::vector<Row>& s) {
                                     {{"sphere", grains::Inertia::sphere}, {"disk", grains::Inertia::disk}})
                   .says("moment of inertia: m d^2/10 or m d^2/8")
                   .from("Eq. 17"));
+  s.push_back(word<grains::Precision>("grains.precision", grains(&G::precision),
+                                      {{"double", grains::Precision::all_double}, {"mixed", grains::Precision::mixed}})
+                  .says("of the steps; mixed: places and overlaps in double, velocities and forces in single, which is "
+                        "faster; beds are packed in double")
+                  .from("not said"));
   s.push_back(real("grains.gravity", "m/s2", grains(&G::gravity)).above(0).says("g"));
   s.push_back(
       flag("grains.sleep", grains(&G::sleep))

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <type_traits>
 
 #include "base/vec2.hpp"
 #include "grains/contact.hpp"
@@ -37,6 +38,19 @@ void advance(Bed& bed, int steps);
 /// Throws Fault (internal) unless every array holds all grains and no id from 0 to params.count - 1 occurs twice.
 void check_count(const Bed& bed);
 
+/// A SlotArray as visitors of each_array see it: as doubles.
+template <class Slots, class Visit>
+void visit_slots(const char* name, Slots& slots, Visit&& visit) {
+  if constexpr (std::is_const_v<Slots>) {
+    const Array values = slots.doubles();
+    visit(name, values);
+  } else {
+    Array values = slots.doubles();
+    visit(name, values);
+    slots.assign(values);
+  }
+}
+
 /// Calls visit(name, array) for every array a checkpoint must hold (doubles and integers), State and Contacts alike, in
 /// a fixed order.  With these, Contacts::pipe_built, ::rebuilds and ::refreshed, pipe_impulse, steps and outside, a bed
 /// goes on with the same bits.
@@ -50,14 +64,14 @@ void each_array(BedLike& bed, Visit&& visit) {
   visit("fluid_fx", s.fluid.fx), visit("fluid_fy", s.fluid.fy), visit("fluid_still", s.fluid.still);
   visit("impulse_x", s.impulse_x), visit("impulse_y", s.impulse_y);
   visit("list_first", c.first), visit("list_last", c.last), visit("list_first_apart", c.first_apart);
-  visit("list_neighbour", c.neighbour), visit("list_spring", c.spring);
+  visit("list_neighbour", c.neighbour), visit_slots("list_spring", c.spring, visit);
   visit("floor_spring", c.wall_spring[slot_floor]), visit("floor_odd_spring", c.wall_spring[slot_floor_odd]);
   visit("pipe_spring", c.wall_spring[slot_pipe]), visit("list_near", c.near);
   auto& z = s.sleep;
   visit("asleep", z.asleep), visit("calm", z.calm), visit("x_look", z.x_look), visit("y_look", z.y_look);
   visit("sleep_contact_x", z.contact_x), visit("sleep_contact_y", z.contact_y), visit("sleep_twist", z.twist);
   visit("sleep_fluid_x", z.fluid_x), visit("sleep_fluid_y", z.fluid_y), visit("sleep_load", z.load);
-  visit("list_rolling", c.rolling), visit("floor_rolling", c.wall_rolling[slot_floor]);
+  visit_slots("list_rolling", c.rolling, visit), visit("floor_rolling", c.wall_rolling[slot_floor]);
   visit("floor_odd_rolling", c.wall_rolling[slot_floor_odd]), visit("pipe_rolling", c.wall_rolling[slot_pipe]);
   visit("wall_place", c.wall_place), visit("wall_first", c.wall_first), visit("wall_piece", c.wall);
   visit("wall_spring", c.piece_spring), visit("wall_rolling", c.piece_rolling);

@@ -29,13 +29,35 @@ struct alignas(64) Own {
   Eight push_x, push_y, beta;  ///< push: f + beta U [N]
 };
 
+/// The same in mixed precision: all that a grain shows in one load, and what it keeps to itself.  Its spin is w alone.
+struct Compact {
+  double x, y;
+  float r, w, u, v;
+};
+struct alignas(32) CompactOwn {
+  using Eight = float[lanes];
+  Eight push_x, push_y, beta;
+};
+
+/// What the records say of one grain, whatever their precision.
+struct Grain {
+  double x, y, r, w, u, v;
+};
+/// What the fluid does to it: its force is (x, y) - beta (u, v).
+struct FluidPush {
+  double x, y, beta;
+};
+
 /// The grains in the form the force loop reads.  Two sets of places and motions: a step reads one and writes the other,
 /// so that no slice sees a neighbour that has already moved.  Between fill_records and read_records all that changes
 /// with a step lives here alone, in memory that the making of new lists uses, too.
 struct Records {
+  bool mixed = false;  ///< compact is in use, else place, motion and own
   base::Lease<Place> place, place_next;
   base::Lease<Motion> motion, motion_next;
   base::Lease<Own> own;
+  base::Lease<Compact> compact, compact_next;
+  base::Lease<CompactOwn> compact_own;
   base::Lease<std::int64_t> filled_at;   ///< of each slice: steps of the bed when it was filled
   std::vector<std::uint8_t> asleep;      ///< of each slice: it is passed over
   std::vector<std::int32_t> awake;       ///< slices that are not, slab by slab along x
@@ -59,13 +81,28 @@ struct Records {
   std::vector<double> partial;              ///< scratch
 
   /// Whether they have been filled since the lists were made.
-  bool hold(const Contacts& c) const { return !place.empty() && filled_for == c.rebuilds; }
+  bool hold(const Contacts& c) const { return !filled_at.empty() && filled_for == c.rebuilds; }
+
+  Grain grain(int i) const { return grain_of(place, motion, compact, i); }
+  Grain grain_next(int i) const { return grain_of(place_next, motion_next, compact_next, i); }
+  FluidPush fluid_push(int i) const {
+    const auto push = [l = i % lanes](const auto& of) { return FluidPush{of.push_x[l], of.push_y[l], of.beta[l]}; };
+    return mixed ? push(compact_own[i / lanes]) : push(own[i / lanes]);
+  }
+
+private:
+  Grain grain_of(const base::Lease<Place>& places, const base::Lease<Motion>& motions,
+                 const base::Lease<Compact>& compacts, int i) const {
+    if (mixed) return {compacts[i].x, compacts[i].y, compacts[i].r, compacts[i].w, compacts[i].u, compacts[i].v};
+    return {places[i].x, places[i].y, places[i].r, places[i].w, motions[i].u, motions[i].v};
+  }
 };
 
 inline constexpr int slices_per_block = 8;  ///< what one thread takes at a time
 /// The constants of a step.
 struct Sweep {
-  int count;  ///< of grains
+  int count;   ///< of grains
+  bool mixed;  ///< precision
   Law law;
   Contact pair, bottom, pipe_wall;
   Reach reach;
@@ -85,7 +122,7 @@ Sweep make_sweep(const Params& p, const Circle& pipe, int count);
 
 /// Fills the records from the state, those of sleeping slices once for each new lists, and clears the pipe's impulse.
 /// steps: of the bed so far.
-void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r, base::Arena& memory);
+void fill_records(const State& s, const Contacts& c, bool mixed, std::int64_t steps, Records& r, base::Arena& memory);
 
 /// The same for one slice, asleep or not.
 void fill_slice(const State& s, int slice, std::int64_t steps, Records& r);

@@ -38,21 +38,23 @@ double damping_of(double restitution, Tension tension);
 /// nothing.  Throws Fault (invalid case) when neither or contradicting values are given, or a value is out of range.
 Params derive(Params given);
 
-/// Constants of one kind of contact.
-struct Contact {
-  double k_n, k_s;       ///< springs [N/m]
-  double eta_n;          ///< dashpot [N s/m], or over the root of the reduced mass [N s/m/kg^(1/2)] (Law::hooke)
-  double shear;          ///< k_s/k_n and eta_s/eta_n [-] (Eq. 26)
-  double mu;             ///< friction [-]
-  double dt;             ///< step over which springs grow [s]
-  double pull;           ///< lowest total normal force allowed [N]: 0, or minus infinity when the dashpot may pull
+/// Constants of one kind of contact, in double or single precision.
+template <class Number>
+struct ContactOf {
+  Number k_n, k_s;       ///< springs [N/m]
+  Number eta_n;          ///< dashpot [N s/m], or over the root of the reduced mass [N s/m/kg^(1/2)] (Law::hooke)
+  Number shear;          ///< k_s/k_n and eta_s/eta_n [-] (Eq. 26)
+  Number mu;             ///< friction [-]
+  Number dt;             ///< step over which springs grow [s]
+  Number pull;           ///< lowest total normal force allowed [N]: 0, or minus infinity when the dashpot may pull
   bool limit_on_spring;  ///< friction bounded by mu e_n instead of mu f_n
-  double mu_r;           ///< rolling friction [-]
-  double k_r;            ///< rolling spring over the square of the rolling radius [N/m]
-  double eta_r;          ///< rolling dashpot over the root of inertia times rolling spring [-]
-  double mass_r3;        ///< mass of a grain over the cube of its radius [kg/m3]
-  double inertia_r5;     ///< its moment of inertia about a point of its surface over radius^5 [kg/m3]
+  Number mu_r;           ///< rolling friction [-]
+  Number k_r;            ///< rolling spring over the square of the rolling radius [N/m]
+  Number eta_r;          ///< rolling dashpot over the root of inertia times rolling spring [-]
+  Number mass_r3;        ///< mass of a grain over the cube of its radius [kg/m3]
+  Number inertia_r5;     ///< its moment of inertia about a point of its surface over radius^5 [kg/m3]
 };
+using Contact = ContactOf<double>;
 
 /// Contact between two grains.  p is complete (derive).
 Contact pair_contact(const Params& p);
@@ -61,6 +63,25 @@ Contact wall_contact(const Params& p, const WallFactors& factors);
 
 // The laws are written once for `double` and for `Lanes`; see lanes.hpp for the namespace.
 inline namespace LIVEBED_SET {
+
+/// The same constants rounded to the precision of Number.
+template <class Number>
+inline ContactOf<Number> in_precision(const Contact& c) {
+  const auto in = [](double a) { return static_cast<Number>(a); };
+  return {.k_n = in(c.k_n),
+          .k_s = in(c.k_s),
+          .eta_n = in(c.eta_n),
+          .shear = in(c.shear),
+          .mu = in(c.mu),
+          .dt = in(c.dt),
+          .pull = in(c.pull),
+          .limit_on_spring = c.limit_on_spring,
+          .mu_r = in(c.mu_r),
+          .k_r = in(c.k_r),
+          .eta_r = in(c.eta_r),
+          .mass_r3 = in(c.mass_r3),
+          .inertia_r5 = in(c.inertia_r5)};
+}
 
 /// Forces of one contact [N].
 template <class Real>
@@ -74,8 +95,8 @@ struct ContactForce {
 /// other surface relative to ours [m/s]; spring: e_s of the last step [N]; eta_n: normal dashpot of the pair [N s/m].
 /// The incremental e_n of Eq. 21 is k_n overlap.  Sliding bounds the total f_s and the stored e_s alike: a spring that
 /// went on growing would push for long after the slip has turned.
-template <class Real, class Dashpot>
-inline ContactForce<Real> contact_force(const Contact& c, const Dashpot& eta_n, const Real& overlap,
+template <class Real, class Number, class Dashpot>
+inline ContactForce<Real> contact_force(const ContactOf<Number>& c, const Dashpot& eta_n, const Real& overlap,
                                         const Real& closing, const Real& slip, const Real& spring) {
   const Real zero = Real{};
   const Real e_n = c.k_n * overlap;
@@ -93,15 +114,18 @@ struct Reduced {
   Real radius;   ///< [m]
   Real inertia;  ///< about the point of contact [kg m2]
 };
-/// Of two grains.  Made of the sum and the product of the radii alone, so that both see the same bits.
-template <class Real>
-inline Reduced<Real> reduced_of_pair(const Contact& c, const Real& r, const Real& other) {
-  const Real s = r + other, p = r * other, s2 = s * s, p2 = p * p;
-  return {c.mass_r3 * (p2 * p) / (s * (s2 - 3.0 * p)), p / s,
-          c.inertia_r5 * (p2 * p2 * p) / (s * (s2 * s2 - 5.0 * (s2 * p) + 5.0 * p2))};
+/// Of two grains.  Made of the sum and the product of the radii alone, so that both see the same bits; by way of their
+/// shares of the sum, or the fifth power of the product would be below the smallest single.
+template <class Real, class Number>
+inline Reduced<Real> reduced_of_pair(const ContactOf<Number>& c, const Real& r, const Real& other) {
+  const Real s = r + other, per_s = Number(1) / s;
+  const Real q = (r * other) * (per_s * per_s);  // r_i r_j / (r_i + r_j)^2
+  const Real radius = q * s, cube = radius * radius * radius;
+  return {c.mass_r3 * cube / (Number(1) - Number(3) * q), radius,
+          c.inertia_r5 * (cube * radius * radius) / (Number(1) - Number(5) * (q - q * q))};
 }
-template <class Real>
-inline Reduced<Real> reduced_at_wall(const Contact& c, const Real& r) {
+template <class Real, class Number>
+inline Reduced<Real> reduced_at_wall(const ContactOf<Number>& c, const Real& r) {
   const Real cube = r * r * r;
   return {c.mass_r3 * cube, r, c.inertia_r5 * (cube * r * r)};
 }
@@ -116,8 +140,8 @@ struct RollingMoment {
 /// Elastic-plastic spring and dashpot against rolling, type C of Ai, Chen, Rotter and Ooi (2011), Powder Technology
 /// 206, 269: spring k_r = 2.25 k_n mu_r^2 R^2, bounded by mu_r R f_n, and a dashpot while it is not at that bound.
 /// rate: spin of the first minus spin of the other [1/s]; normal: f_n [N].
-template <class Real>
-inline RollingMoment<Real> rolling_moment(const Contact& c, const Reduced<Real>& reduced, const Real& normal,
+template <class Real, class Number>
+inline RollingMoment<Real> rolling_moment(const ContactOf<Number>& c, const Reduced<Real>& reduced, const Real& normal,
                                           const Real& rate, const Real& spring) {
   const Real zero = Real{};
   const Real k = c.k_r * (reduced.radius * reduced.radius);

@@ -163,6 +163,7 @@ void fit(Vector& a, std::size_t size) {
 void count_rows(const State& s, Contacts& c, const ListScratch& w, bool rolling) {
   const int n = s.count(), slices = (n + lanes - 1) / lanes;
   for (auto* a : {&c.first, &c.last, &c.first_apart}) a->resize(slices);
+  const int step = rows_at_once(c);
   std::int32_t next = 0;
   for (int k = 0; k < slices; ++k) {
     int rows = 0, close = 0;
@@ -177,13 +178,14 @@ void count_rows(const State& s, Contacts& c, const ListScratch& w, bool rolling)
       rows = std::max(rows, w.found_all[rank]);
       close = std::max(close, w.found_close[rank]);
     }
+    close = (close + step - 1) / step * step, rows = (rows + step - 1) / step * step;
     c.first[k] = next;
     c.first_apart[k] = next + close;
     c.last[k] = next += rows;
   }
   fit(c.neighbour, static_cast<std::size_t>(next) * lanes);
-  fit(c.spring, c.neighbour.size());
-  fit(c.rolling, rolling ? c.neighbour.size() : 0);
+  c.spring.visit([&](auto& a) { fit(a, c.neighbour.size()); });
+  c.rolling.visit([&](auto& a) { fit(a, rolling ? c.neighbour.size() : 0); });
 }
 
 /// Rows of a slice: slot s of lane l is the s-th neighbour of that grain.
@@ -191,8 +193,9 @@ void fill_rows(int slice, int n, int window, Contacts& c, const ListScratch& w) 
   const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(c.first[slice]) * lanes;
   const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(c.last[slice]) * lanes;
   std::fill(c.neighbour.begin() + begin, c.neighbour.begin() + end, nobody(n));
-  std::fill(c.spring.begin() + begin, c.spring.begin() + end, 0.0);
-  if (!c.rolling.empty()) std::fill(c.rolling.begin() + begin, c.rolling.begin() + end, 0.0);
+  const auto forget = [&](auto& a) { std::fill(a.begin() + begin, a.begin() + end, 0); };
+  c.spring.visit(forget);
+  if (!c.rolling.empty()) c.rolling.visit(forget);
   for (int i = slice * lanes; i < std::min(n, (slice + 1) * lanes); ++i) {
     const int rank = w.rank_of_new[i];
     const std::int32_t* const found = w.found[rank / window].data() + w.found_first[rank];
@@ -209,8 +212,8 @@ void carry_springs(int old_slice, Contacts& c, const ListScratch& w) {
     if (i < 0 || j < 0) return;  // one of them has left
     const std::ptrdiff_t slot = slot_of(c, i, j);
     if (slot < 0) return;
-    c.spring[slot] = spring;
-    if (!c.rolling.empty()) c.rolling[slot] = rolling;
+    c.spring.set(slot, spring);
+    if (!c.rolling.empty()) c.rolling.set(slot, rolling);
   };
   for (int k = w.remembered_first[old_slice]; k < w.remembered_first[old_slice + 1]; ++k) {
     const Remembered& pair = w.remembered[k];

@@ -6,6 +6,7 @@
 #include "base/arena.hpp"
 #include "grains/lanes.hpp"
 #include "grains/params.hpp"
+#include "grains/slot_array.hpp"
 #include "grains/state.hpp"
 #include "grains/walls.hpp"
 
@@ -29,8 +30,8 @@ struct Contacts {
   std::vector<std::int32_t> first, last;  ///< slice k owns rows first[k] to last[k] - 1 of eight slots each
   std::vector<std::int32_t> first_apart;  ///< from this row of a slice on no pair has touched since the lists exist
   base::AlignedVector<std::int32_t> neighbour;  ///< the other grain, row by row; nobody() where a lane has no more
-  Array spring;                                 ///< e_s of the same slot [N]
-  Array rolling;                         ///< rolling spring of the same slot [N m]; empty without rolling resistance
+  SlotArray spring;                             ///< e_s of the same slot [N]
+  SlotArray rolling;                     ///< rolling spring of the same slot [N m]; empty without rolling resistance
   std::vector<std::int32_t> wall_place;  ///< of each slice near floor or pipe: which of them it is; -1: no such
   std::array<Array, wall_slots> wall_spring;   ///< e_s with floor and pipe of the slices near them [N]
   std::array<Array, wall_slots> wall_rolling;  ///< rolling springs likewise [N m]
@@ -45,6 +46,7 @@ struct Contacts {
 
   int slices() const { return static_cast<int>(near.size()); }
   bool built() const { return !first.empty(); }
+  void set_single(bool single) { spring.set_single(single), rolling.set_single(single); }
 };
 
 /// Cells of at least one reach, numbered column by column within bands of some rows: what follows one another lies in a
@@ -96,6 +98,9 @@ struct ListScratch {
   Grid grid;                                ///< of refresh, since the last rebuild
   std::vector<std::int32_t> moved, around;  ///< of refresh: grains out of their half skin; who is near one of them
 };
+
+/// The steps in mixed precision take the rows of a slice two by two.
+inline int rows_at_once(const Contacts& c) { return c.spring.single() ? 2 : 1; }
 
 /// A plane packing has about six; a grain with nearly that many lies on others.
 inline constexpr int most_neighbours = 32;

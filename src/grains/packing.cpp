@@ -186,8 +186,8 @@ void carry_histories(const Bed& from, const std::vector<int>& origin, Bed& to) {
       const int j = now.neighbour[slot] < s.count() ? origin[s.id[now.neighbour[slot]]] : -1;
       const std::ptrdiff_t before = j < 0 ? -1 : slot_of(old, was, j);
       if (before < 0) continue;
-      now.spring[slot] = old.spring[before];
-      if (!now.rolling.empty()) now.rolling[slot] = old.rolling[before];
+      now.spring.set(slot, old.spring[before]);
+      if (!now.rolling.empty()) now.rolling.set(slot, old.rolling[before]);
     }
     const int there = old.wall_place[was / lanes], here = now.wall_place[slice];
     if (there < 0 || here < 0) continue;

@@ -16,6 +16,8 @@ enum class Law { paper, hooke };
 /// May the dashpot pull?  spring: force is cut when the spring is in tension (Eq. 23 to the letter); none: total
 /// normal force >= 0.
 enum class Tension { spring, none };
+/// In what the grains are moved: all in double, or places and overlaps in double and the rest in single precision.
+enum class Precision { all_double, mixed };
 /// What bounds friction: the spring force e_n (Eq. 24 to the letter) or the total normal force.
 enum class FrictionLimit { spring_force, total_force };
 /// The bottom: a row of fixed grains (the paper) or a smooth plane.
@@ -67,6 +69,7 @@ struct Params {
   double gamma = 1;              ///< contact distance over the sum of radii [-] (Eq. 19)
   Tension tension = Tension::none;
   FrictionLimit friction_limit = FrictionLimit::total_force;
+  Precision precision = Precision::all_double;
   double skin = 0.5;  ///< extra reach of the neighbour lists over d [-]; 0.5 is fastest when grains fly at 1 m/s
 
   // sleep

@@ -59,7 +59,7 @@ void find_moved(const Sweep& k, const State& s, const Contacts& c, const Records
     for (int n = begin; n < std::min(slices, begin + slices_per_block); ++n) {
       const int first = r.awake[n] * lanes;
       for (int i = first; i < std::min(s.count(), first + lanes); ++i) {
-        const Place& at = r.place[i];
+        const Grain at = r.grain(i);
         const double d2 = square(nearest_image(at.x - c.x_built[i], k.reach.length)) + square(at.y - c.y_built[i]);
         if (!(d2 <= limit)) moved.push_back(i);  // a NaN counts as moved
       }
@@ -76,27 +76,30 @@ void extend(Vector& a, std::size_t more, typename Vector::value_type with) {
   a.resize(size, with);
 }
 
-/// One more row for a slice.  Where others follow, its rows move to the end; what they leave is lost until all lists
-/// are made anew.
+/// One or two more rows for a slice.  Where others follow, its rows move to the end; what they leave is lost until all
+/// lists are made anew.
 int add_row(Contacts& c, int slice, int none) {
-  const int rows = c.last[slice] - c.first[slice], end = static_cast<int>(c.neighbour.size()) / lanes;
+  const int added = rows_at_once(c), rows = c.last[slice] - c.first[slice],
+            end = static_cast<int>(c.neighbour.size()) / lanes;
   const bool at_end = c.last[slice] == end;
-  const std::size_t more = static_cast<std::size_t>(at_end ? 1 : rows + 1) * lanes;
+  const std::size_t more = static_cast<std::size_t>(at_end ? added : rows + added) * lanes;
   extend(c.neighbour, more, none);
-  extend(c.spring, more, 0.0);
-  if (!c.rolling.empty()) extend(c.rolling, more, 0.0);
+  const auto add = [&](auto& a) { extend(a, more, 0); };
+  c.spring.visit(add);
+  if (!c.rolling.empty()) c.rolling.visit(add);
   if (!at_end) {
     const auto move = [&](auto& a) {
       std::copy_n(a.begin() + static_cast<std::ptrdiff_t>(c.first[slice]) * lanes, rows * lanes,
                   a.begin() + static_cast<std::ptrdiff_t>(end) * lanes);
     };
-    move(c.neighbour), move(c.spring);
-    if (!c.rolling.empty()) move(c.rolling);
+    move(c.neighbour), c.spring.visit(move);
+    if (!c.rolling.empty()) c.rolling.visit(move);
     c.first_apart[slice] += end - c.first[slice];
     c.first[slice] = end;
     c.last[slice] = end + rows;
   }
-  return c.last[slice]++;
+  c.last[slice] += added;
+  return c.last[slice] - added;
 }
 
 /// Lists j as a neighbour of i, without a history.
@@ -109,8 +112,8 @@ void put_neighbour(Contacts& c, int i, int j, int none) {
 void drop_neighbour(Contacts& c, int i, int j, int none) {
   const std::ptrdiff_t slot = slot_of(c, i, j);
   c.neighbour[slot] = none;
-  c.spring[slot] = 0;
-  if (!c.rolling.empty()) c.rolling[slot] = 0;
+  c.spring.set(slot, 0);
+  if (!c.rolling.empty()) c.rolling.set(slot, 0);
 }
 
 /// Room for the histories of a slice with floor and pipe.
@@ -123,13 +126,13 @@ void add_wall_place(Contacts& c, int slice) {
 
 /// Lists one grain anew where it is now; false where it may not be, or when it has too many neighbours.
 bool list_anew(const Sweep& k, const State& s, Contacts& c, const Records& r, ListScratch& w, int i) {
-  const Place& at = r.place[i];
+  const Grain at = r.grain(i);
   if (!(at.x >= 0 && at.x <= k.reach.length && at.y >= -2 * at.r && std::isfinite(at.y))) return false;
   w.around.clear();
   each_chain_around(w.grid, at.x, at.y, [&](std::int32_t head) {
     for (std::int32_t j = head; j >= 0; j = w.grid.next[j]) {
       const double dx = nearest_image(c.x_built[j] - at.x, k.reach.length), dy = c.y_built[j] - at.y;
-      const double far = k.reach.gamma * (at.r + r.place[j].r) + k.reach.skin;
+      const double far = k.reach.gamma * (at.r + r.grain(j).r) + k.reach.skin;
       if (j != i && dx * dx + dy * dy <= far * far) w.around.push_back(j);
     }
   });

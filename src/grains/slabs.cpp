@@ -59,6 +59,7 @@ void step_slab(const Sweep& k, Contacts& c, Records& r, int slab, bool back) {
 void swap_levels(Records& r) {
   swap(r.place, r.place_next);
   swap(r.motion, r.motion_next);
+  swap(r.compact, r.compact_next);
 }
 
 /// A step of all slices, block by block.
@@ -125,16 +126,15 @@ double furthest(const Sweep& k, const Contacts& c, Records& r, double time) {
   base::for_each_item(0, blocks, [&](int block) {
     double fastest = 0, pushed = 0;
     for (int n = block * slices_per_block; n < std::min(slices, (block + 1) * slices_per_block); ++n) {
-      const Own& own = r.own[r.awake[n]];
       const int begin = r.awake[n] * lanes;
       for (int l = 0; l < std::min(lanes, k.count - begin); ++l) {
-        const Place& at = r.place[begin + l];
-        const Motion &motion = r.motion[begin + l], &before = r.motion_next[begin + l];
-        const double push = push_r3 * (std::abs(own.push_x[l]) + std::abs(own.push_y[l])) / base::cube(at.r);
-        const double last = per_dt * (std::abs(motion.u - before.u) + std::abs(motion.v - before.v));
+        const Grain at = r.grain(begin + l), before = r.grain_next(begin + l);
+        const FluidPush fluid = r.fluid_push(begin + l);
+        const double push = push_r3 * (std::abs(fluid.x) + std::abs(fluid.y)) / base::cube(at.r);
+        const double last = per_dt * (std::abs(at.u - before.u) + std::abs(at.v - before.v));
         const double gone = std::abs(nearest_image(at.x - c.x_built[begin + l], k.reach.length)) +
                             std::abs(at.y - c.y_built[begin + l]);
-        const double speed = std::abs(motion.u) + std::abs(motion.v) + 0.0 * at.w;
+        const double speed = std::abs(at.u) + std::abs(at.v) + 0.0 * at.w;
         const double way = gone + base::square(time) * (2 * last + push + gravity);
         if (!(speed <= fastest)) fastest = std::isnan(speed) ? without_end : speed;
         if (!(way <= pushed)) pushed = std::isnan(way) ? without_end : way;

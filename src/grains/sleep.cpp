@@ -55,8 +55,8 @@ void each_pair(const State& s, const Contacts& c, int slice, Body&& body) {
 
 /// Both sides of a contact remember the same; a sleeper's memory is that of its neighbour awake.
 void copy_history(Contacts& c, std::ptrdiff_t from, std::ptrdiff_t to) {
-  c.spring[to] = c.spring[from];
-  if (!c.rolling.empty()) c.rolling[to] = -c.rolling[from];
+  c.spring.set(to, c.spring[from]);
+  if (!c.rolling.empty()) c.rolling.set(to, -c.rolling[from]);
 }
 
 /// Takes over the histories of contacts with grains awake.
@@ -88,7 +88,7 @@ bool looks_calm(Bed& bed, const Sweep& k, int slice, double interval) {
   const double far = square(bed.params.sleep_speed * std::sqrt(k.gravity * bed.params.diameter) * interval);
   int least = looks_a_rest;
   each_grain(bed.state, slice, [&](int i) {
-    const Place& at = bed.records.place[i];
+    const Grain at = bed.records.grain(i);
     const double d2 = square(nearest_image(at.x - z.x_look[i], k.reach.length)) + square(at.y - z.y_look[i]);
     z.calm[i] = d2 <= far ? z.calm[i] + 1 : 0;
     z.x_look[i] = at.x, z.y_look[i] = at.y;
@@ -100,10 +100,10 @@ bool looks_calm(Bed& bed, const Sweep& k, int slice, double interval) {
 /// What presses a grain: its weight and half the sum of the spring forces of its neighbours [N].
 double load_of(const Bed& bed, const Sweep& k, int i) {
   const Contacts& c = bed.contacts;
-  const Place& own = bed.records.place[i];
+  const Grain own = bed.records.grain(i);
   double pressed = 0;
   for (int row = c.first[i / lanes]; row < c.last[i / lanes]; ++row) {
-    const Place& other = bed.records.place[c.neighbour[static_cast<std::ptrdiff_t>(row) * lanes + i % lanes]];
+    const Grain other = bed.records.grain(c.neighbour[static_cast<std::ptrdiff_t>(row) * lanes + i % lanes]);
     const double dx = nearest_image(other.x - own.x, k.reach.length), dy = other.y - own.y;
     pressed += k.pair.k_n * std::max(0.0, k.reach.gamma * (own.r + other.r) - std::hypot(dx, dy));
   }

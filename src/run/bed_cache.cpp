@@ -47,7 +47,7 @@ bool decides_packing(std::string_view name) {
        {"case.", "mesh.", "pipe.", "flow.", "current.", "coupling.", "time.", "output."}) {
     if (name.starts_with(table)) return false;
   }
-  return name != "preset" && name != "bed.level";
+  return name != "preset" && name != "bed.level" && name != "grains.precision";
 }
 
 std::uintmax_t size_of(const grains::Bed& bed) {

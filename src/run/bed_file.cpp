@@ -44,6 +44,7 @@ void write_bed(io::Group& group, const grains::Bed& bed) {
 
 grains::Bed read_bed(const io::Group& group, const grains::Params& complete) {
   grains::Bed bed = grains::make_bed(complete);
+  bed.contacts.set_single(complete.precision == grains::Precision::mixed);
   grains::each_array(bed, [&](const char* name, auto& a) { read_array(group, name, a); });
   pass_bed_scalars(group, bed);
   return bed;

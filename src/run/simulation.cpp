@@ -93,6 +93,7 @@ Simulation::Start Simulation::prepare(const casefile::Case& given, const BedCach
   const BedCache& cache = from_file ? BedCache() : packed;  // a file's name does not tell what is in it
   grains::Params awake = given.grains;                      // nobody sleeps before the bed has come to rest
   awake.sleep = false;
+  awake.precision = grains::Precision::all_double;
   const std::string key = packing_key(given);
   grains::Packing packing = cache.get(
       key, awake, [&] { return from_file ? bed_of_file(given, awake, on_look) : grains::pack(awake, on_look); });
@@ -118,6 +119,7 @@ Simulation::Start Simulation::prepare(const casefile::Case& given, const BedCach
   start.bed = std::move(packing.bed);
   start.convergence = std::move(packing.convergence);
   start.bed.params.sleep = given.grains.sleep;
+  start.bed.params.precision = given.grains.precision;
   return start;
 }
 

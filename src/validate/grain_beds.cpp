@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "base/fault.hpp"
+#include "grains/forces.hpp"
 #include "grains/measures.hpp"
 
 namespace livebed::validate {
@@ -52,6 +54,7 @@ HeapRun run_heap(const HeapSetup& setup) {
   p.law = grains::Law::hooke;
   p.friction = setup.friction;
   p.rolling_friction = setup.rolling_friction;
+  p.precision = setup.precision;
   p.wall_factor = 1;  // the floor is of grains like the others
   p.floor = grains::Floor::grains;
   p.length = 0.4;
@@ -97,6 +100,58 @@ HeapRun run_heap(const HeapSetup& setup) {
   const auto degrees = [&](int side) { return std::atan(height[side] / distance[side]) * 180 / base::pi; };
   run.left = degrees(0), run.right = degrees(1);
   run.seconds = since(begin);
+  return run;
+}
+
+PrecisionRun compare_precision(const grains::Params& params, int steps) {
+  constexpr double knock = 0.02;  // [m/s]
+  const auto start = Clock::now();
+  grains::Bed in_double = grains::pack(params).bed;
+  // A radius in single precision is another one, by as much as a hundredth of what grains at rest overlap.
+  for (double& diameter : in_double.state.diameter) diameter = static_cast<float>(diameter);
+  grains::settle(in_double);
+  for (int i = 0; i < in_double.state.count(); ++i)
+    in_double.state.u[i] += knock * std::sin(1.1 * in_double.state.id[i]);
+  grains::Bed mixed = in_double;
+  mixed.params.precision = grains::Precision::mixed;
+  for (grains::Bed* bed : {&in_double, &mixed}) grains::advance(*bed, steps);
+
+  struct Seen {
+    base::Vec2 velocity;
+    std::map<int, double> overlaps;  ///< with grains of higher number
+  };
+  const auto look = [](const grains::Bed& bed) {
+    const grains::State& s = bed.state;
+    std::vector<Seen> seen(s.count());
+    for (int i = 0; i < s.count(); ++i) seen[s.id[i]].velocity = {s.u[i], s.v[i]};
+    grains::visit_contacts(bed, [&](const grains::TouchingPair& pair) {
+      if (pair.j < 0) return;
+      const auto [first, second] = std::minmax(s.id[pair.i], s.id[pair.j]);
+      seen[first].overlaps[second] = pair.overlap;
+    });
+    return seen;
+  };
+  const std::vector<Seen> a = look(in_double), b = look(mixed);
+  PrecisionRun run;
+  double overlaps = 0;
+  int contacts = 0;
+  for (std::size_t id = 0; id < a.size(); ++id) {
+    const double apart = base::norm(a[id].velocity - b[id].velocity);
+    run.worst = std::max(run.worst, apart);
+    run.mean += apart * apart;
+    run.speed += base::square(base::norm(a[id].velocity));
+    for (const auto& [other, overlap] : a[id].overlaps) {
+      const auto found = b[id].overlaps.find(other);
+      if (found == b[id].overlaps.end()) continue;
+      run.overlap += base::square(overlap - found->second);
+      overlaps += overlap, ++contacts;
+    }
+  }
+  run.speed = std::sqrt(run.speed / static_cast<double>(a.size()));
+  run.mean = std::sqrt(run.mean / static_cast<double>(a.size())) / run.speed;
+  run.worst /= run.speed;
+  run.overlap = std::sqrt(run.overlap / contacts) / (overlaps / contacts);
+  run.seconds = since(start);
   return run;
 }
 

@@ -22,6 +22,7 @@ struct HeapSetup {
   double friction = 0.5;
   double rolling_friction = 0;
   unsigned seed = 1;
+  grains::Precision precision = grains::Precision::all_double;
 };
 struct HeapRun {
   double left = 0, right = 0;      ///< slope of the flanks [degrees]
@@ -32,5 +33,15 @@ struct HeapRun {
   double angle() const { return 0.5 * (left + right); }
 };
 HeapRun run_heap(const HeapSetup& setup);
+
+/// The same settled bed, knocked, in double and in mixed precision.
+struct PrecisionRun {
+  double worst = 0;    ///< largest difference of the velocities of a grain, over the root mean square of all velocities
+  double mean = 0;     ///< root mean square of those differences, over the same
+  double speed = 0;    ///< that root mean square [m/s]
+  double overlap = 0;  ///< root mean square difference of overlaps that both have, over the mean overlap
+  double seconds = 0;
+};
+PrecisionRun compare_precision(const grains::Params& params, int steps);
 
 }  // namespace livebed::validate

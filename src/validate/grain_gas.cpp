@@ -66,6 +66,7 @@ grains::Bed loose_grains(const GasSetup& setup) {
   p.steps_per_contact = setup.steps_per_contact;
   p.restitution = setup.restitution;
   p.friction = setup.friction;
+  p.precision = setup.precision;
   p.count = setup.grains;
   p.length = columns * pitch * p.diameter;
   grains::Bed bed = grains::make_bed(grains::derive(p));

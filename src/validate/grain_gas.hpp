@@ -2,6 +2,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "grains/params.hpp"
+
 namespace livebed::validate {
 
 /// Grains that fly about under their weight over a smooth plane, without a fluid: what collisions do to the energy.
@@ -11,6 +13,7 @@ struct GasSetup {
   double restitution = 1;
   double friction = 0;
   int steps = 60000;
+  grains::Precision precision = grains::Precision::all_double;
 };
 struct GasRun {
   double drift = 0;                  ///< largest distance of the energy from its first value, over that value

@@ -189,6 +189,68 @@ void heaps(Book& book) {
   book.draw("heaps", chart);
 }
 
+/// The same grains in mixed precision.
+void mixed_precision(Book& book) {
+  using grains::Precision;
+  const auto add = [&](Row row, const std::string& setup, double seconds) {
+    row.name = "mixed precision, " + row.name, row.setup = setup, row.seconds = seconds;
+    book.add(std::move(row));
+  };
+  const double told = std::numeric_limits<double>::quiet_NaN();
+
+  const GasRun gas = run_gas({.precision = Precision::mixed});
+  const std::string flying = "1000 elastic grains as above, 60000 steps";
+  add({"colliding grains: largest drift of the energy", gas.drift, "of the first", 0, 1e-4, "conservation of energy"},
+      flying, gas.seconds);
+  add({"colliding grains: change of momentum along the plane", std::abs(gas.momentum), "of sum m |u|", 0, 1e-5,
+       "conservation of momentum"},
+      flying, gas.seconds);
+  add({"colliding grains: collisions", static_cast<double>(gas.collisions), "-", told, told, ""}, flying, gas.seconds);
+
+  for (const double rolling : {0.0, 0.25}) {
+    grains::Params p;
+    p.stiffness = 5500, p.restitution = 0.3, p.rolling_friction = rolling;
+    p.length = 0.0848, p.count = 480;
+    constexpr int steps = 200;
+    const PrecisionRun run = compare_precision(p, steps);
+    const std::string setup = fmt::format(
+        "480 grains, 2 mm +- 5 %, rolling friction {}, settled, knocked at up to 0.02 m/s, {} steps later, {:.2g} m/s "
+        "in root mean square",
+        rolling, steps, run.speed);
+    const std::string reference = "the same in double precision";
+    add({fmt::format("knocked bed, rolling friction {}: velocity of the worst grain, difference", rolling), run.worst,
+         "of the rms", 0, 1e-4, reference},
+        setup, run.seconds);
+    add({fmt::format("knocked bed, rolling friction {}: velocities, rms difference", rolling), run.mean, "of the rms",
+         0, 2e-5, reference},
+        setup, run.seconds);
+    add({fmt::format("knocked bed, rolling friction {}: overlaps, rms difference", rolling), run.overlap, "of the mean",
+         0, 5e-5, reference},
+        setup, run.seconds);
+    p.precision = Precision::mixed;
+    const RestRun rest = run_rest(p);
+    add({fmt::format("bed at rest, rolling friction {}: mean speed", rolling), rest.mean_speed, "m/s", 0, 1e-5,
+         "asked for"},
+        "480 grains as above, settled; largest mean speed 0.3 to 0.4 s later", rest.seconds);
+  }
+
+  constexpr int seeds = 3;
+  for (const double rolling : {0.0, 0.3}) {
+    double slope[2] = {0, 0}, square[2] = {0, 0}, seconds = 0;
+    for (const Precision precision : {Precision::all_double, Precision::mixed})
+      for (unsigned seed = 1; seed <= seeds; ++seed) {
+        const HeapRun run = run_heap({.rolling_friction = rolling, .seed = seed, .precision = precision});
+        const int k = precision == Precision::mixed;
+        slope[k] += run.angle() / seeds, square[k] += run.angle() * run.angle() / seeds, seconds += run.seconds;
+      }
+    const auto variance = [&](int k) { return std::max(0.0, square[k] - slope[k] * slope[k]) / (seeds - 1); };
+    add({fmt::format("heap, friction 0.5, rolling {}: slope less that in double", rolling), slope[1] - slope[0],
+         "degrees", -2 * std::sqrt(variance(0) + variance(1)), 2 * std::sqrt(variance(0) + variance(1)),
+         "two standard errors of the difference"},
+        fmt::format("600 grains as above, means of {} seeds each", seeds), seconds);
+  }
+}
+
 void silos(Book& book) {
   constexpr int seeds = 2;
   report::Chart chart{{"force of a side wall over its height [N/m]"}, {"height [m]"}, {}, 420, 420};
@@ -241,6 +303,7 @@ Result grains(const Tell& tell) {
   rest(book);
   heaps(book);
   silos(book);
+  mixed_precision(book);
   return book.result;
 }
 

@@ -76,27 +76,31 @@ TEST(advance, any_number_of_threads_gives_the_same_bits) {
 }
 
 TEST(advance, saved_and_restored_bed_goes_on_with_the_same_bits) {
-  Bed unbroken = bed_in_motion();
-  advance(unbroken, 777);
-  // What a checkpoint holds and nothing else.
-  Bed restored;
-  restored.params = unbroken.params;
-  restored.pipe = unbroken.pipe;
-  restored.pipe_impulse = unbroken.pipe_impulse;
-  restored.steps = unbroken.steps;
-  restored.contacts.pipe_built = unbroken.contacts.pipe_built;
-  restored.contacts.rebuilds = unbroken.contacts.rebuilds;
-  restored.contacts.refreshed = unbroken.contacts.refreshed;
-  std::vector<std::vector<double>> saved;
-  each_array(unbroken, [&](const char*, const auto& array) { saved.emplace_back(array.begin(), array.end()); });
-  std::size_t k = 0;
-  each_array(restored, [&](const char*, auto& array) {
-    array.assign(saved[k].begin(), saved[k].end());
-    ++k;
-  });
-  advance(unbroken, 1234);
-  advance(restored, 1234);
-  expect_same_bits(unbroken, restored);
+  for (const Precision precision : {Precision::all_double, Precision::mixed}) {
+    Bed unbroken = bed_in_motion();
+    unbroken.params.precision = precision;
+    advance(unbroken, 777);
+    // What a checkpoint holds and nothing else.
+    Bed restored;
+    restored.params = unbroken.params;
+    restored.pipe = unbroken.pipe;
+    restored.pipe_impulse = unbroken.pipe_impulse;
+    restored.steps = unbroken.steps;
+    restored.contacts.set_single(precision == Precision::mixed);
+    restored.contacts.pipe_built = unbroken.contacts.pipe_built;
+    restored.contacts.rebuilds = unbroken.contacts.rebuilds;
+    restored.contacts.refreshed = unbroken.contacts.refreshed;
+    std::vector<std::vector<double>> saved;
+    each_array(unbroken, [&](const char*, const auto& array) { saved.emplace_back(array.begin(), array.end()); });
+    std::size_t k = 0;
+    each_array(restored, [&](const char*, auto& array) {
+      array.assign(saved[k].begin(), saved[k].end());
+      ++k;
+    });
+    advance(unbroken, 1234);
+    advance(restored, 1234);
+    expect_same_bits(unbroken, restored);
+  }
 }
 
 TEST(advance, two_calls_move_the_grains_as_one_call_does) {
@@ -134,7 +138,7 @@ TEST(advance, histories_survive_rebuilt_lists) {
 
   // The test can fail: a lost history shows.
   Bed forgetful = bed_in_motion();
-  std::fill(forgetful.contacts.spring.begin(), forgetful.contacts.spring.end(), 0.0);
+  forgetful.contacts.spring.assign(Array(forgetful.contacts.spring.size(), 0.0));
   advance(forgetful, 300);
   worst = 0;
   for (int id = 0; id < rare.params.count; ++id) {

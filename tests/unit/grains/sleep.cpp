@@ -162,24 +162,27 @@ TEST(sleep, keeps_histories_of_both_sides_equal) {
 }
 
 TEST(sleep, gives_the_same_bits_on_any_number_of_threads_and_after_a_break) {
-  Bed one = bed_at_rest();
-  advance(one, falls_asleep_within(one));
-  for (int i = 0; i < one.state.count(); ++i)
-    one.state.fluid.fx[i] = one.state.y[i] > 0.025 && one.state.x[i] < 0.02 ? 1e-4 : 0.0;
-  Bed three = one, resumed = one;
-  advance(one, 2000);
-  base::set_threads(3);
-  advance(three, 2000);
-  base::set_threads(1);
-  advance(resumed, 1210);
-  resumed.records = {}, resumed.scratch = {};  // a checkpoint does not hold them
-  advance(resumed, 2000 - 1210);
-  EXPECT_GT(share_asleep(one.state), 0.2);
-  EXPECT_LT(share_asleep(one.state), 0.95);
-  for (const Bed* other : {&three, &resumed}) {
-    EXPECT_TRUE(one.state.x == other->state.x);
-    EXPECT_TRUE(one.state.v == other->state.v);
-    EXPECT_TRUE(one.state.sleep.asleep == other->state.sleep.asleep);
-    EXPECT_TRUE(one.contacts.spring == other->contacts.spring);
+  for (const Precision precision : {Precision::all_double, Precision::mixed}) {
+    Bed one = bed_at_rest();
+    one.params.precision = precision;
+    advance(one, falls_asleep_within(one));
+    for (int i = 0; i < one.state.count(); ++i)
+      one.state.fluid.fx[i] = one.state.y[i] > 0.025 && one.state.x[i] < 0.02 ? 1e-4 : 0.0;
+    Bed three = one, resumed = one;
+    advance(one, 2000);
+    base::set_threads(3);
+    advance(three, 2000);
+    base::set_threads(1);
+    advance(resumed, 1210);
+    resumed.records = {}, resumed.scratch = {};  // a checkpoint does not hold them
+    advance(resumed, 2000 - 1210);
+    EXPECT_GT(share_asleep(one.state), 0.2);
+    EXPECT_LT(share_asleep(one.state), 0.95);
+    for (const Bed* other : {&three, &resumed}) {
+      EXPECT_TRUE(one.state.x == other->state.x);
+      EXPECT_TRUE(one.state.v == other->state.v);
+      EXPECT_TRUE(one.state.sleep.asleep == other->state.sleep.asleep);
+      EXPECT_TRUE(one.contacts.spring == other->contacts.spring);
+    }
   }
 }

@@ -18,6 +18,25 @@ TEST(grains, gas_of_a_thousand_elastic_grains_keeps_its_energy_and_momentum) {
   EXPECT_LT(std::abs(run.momentum), 1e-12);
 }
 
+TEST(grains, in_mixed_precision_keep_their_energy_and_move_as_in_double) {
+  const GasRun gas = run_gas({.steps = 20000, .precision = grains::Precision::mixed});
+  EXPECT_GT(gas.collisions, 3000);
+  EXPECT_LT(gas.drift, 1e-4);
+  EXPECT_LT(std::abs(gas.momentum), 1e-5);
+  for (const double rolling : {0.0, 0.25}) {
+    grains::Params p;
+    p.stiffness = 5500, p.restitution = 0.3, p.rolling_friction = rolling;
+    p.length = 0.0424, p.count = 240;
+    const PrecisionRun run = compare_precision(p, 200);
+    std::printf("rolling friction %.2f: velocities within %.2g (rms %.2g) of %.2g m/s, overlaps within %.2g\n", rolling,
+                run.worst, run.mean, run.speed, run.overlap);
+    EXPECT_LT(run.worst, 1e-4);
+    EXPECT_LT(run.mean, 2e-5);
+    EXPECT_LT(run.overlap, 5e-5);
+    EXPECT_GT(run.mean, 0);
+  }
+}
+
 TEST(grains, damping_and_friction_never_add_energy) {
   for (const double restitution : {0.3, 0.6, 0.9}) {
     for (const double friction : {0.0, 0.5}) {
