@@ -108,18 +108,22 @@ void Transfer::locate_one(int n, double x, double y) {
   x = std::clamp(x, edges_x_.first(), edges_x_.last());
   y = std::clamp(y, edges_y_.first(), edges_y_.last());
   Footprint& f = footprint_[n];
-  double *wx = &weight_x_[static_cast<std::size_t>(n) * widest_],
-         *wy = &weight_y_[static_cast<std::size_t>(n) * widest_];
+  double *wx = weight_x(n), *wy = weight_y(n);
   const int a = span(edges_x_, x - half_width_, x + half_width_, f.ni);
   const int b = span(edges_y_, y - half_width_, y + half_width_, f.nj);
   weigh(edges_x_, a, f.ni, x, half_width_, wx);
   weigh(edges_y_, b, f.nj, y, half_width_, wy);
   f.i0 = first_column_ + a;
   f.j0 = first_row_ + b;
+  f.whole = true;
+  for (int k = 0; k < f.nj; ++k) {
+    const double* open = open_.row(f.j0 + k) + f.i0;
+    for (int m = 0; m < f.ni; ++m) f.whole &= open[m] == 1.0;
+  }
   double sum = 0;
-  for_each_row(n, [&](int, int ni, int, double share, const double* weight, const double* open) {
+  for_each_row(n, [&](int, auto ni, int, double share, const auto& weight) {
     double row = 0;
-    for (int m = 0; m < ni; ++m) row += weight[m] * open[m];
+    for (int m = 0; m < ni; ++m) row += weight(m);
     sum += share * row;
   });
   if (sum <= 0 && move_to_nearest_water(n, x, y)) return;
@@ -134,7 +138,7 @@ bool Transfer::move_to_nearest_water(int n, double x, double y) {
   const int columns = edges_x_.volumes(), rows = edges_y_.volumes();
   const int a = f.i0 - first_column_, b = f.j0 - first_row_;
   double nearest = std::numeric_limits<double>::infinity();
-  Footprint found{0, 1, 0, 1};
+  Footprint found{0, 1, 0, 1, false};
   for (int j = std::max(0, b - volumes_to_water); j < std::min(rows, b + f.nj + volumes_to_water); ++j)
     for (int i = std::max(0, a - volumes_to_water); i < std::min(columns, a + f.ni + volumes_to_water); ++i) {
       if (open_(first_column_ + i, first_row_ + j) <= 0) continue;
@@ -144,8 +148,8 @@ bool Transfer::move_to_nearest_water(int n, double x, double y) {
     }
   if (!std::isfinite(nearest)) return false;
   f = found;
-  weight_x_[static_cast<std::size_t>(n) * widest_] = 1.0;
-  weight_y_[static_cast<std::size_t>(n) * widest_] = 1.0 / open_(f.i0, f.j0);
+  *weight_x(n) = 1.0;
+  *weight_y(n) = 1.0 / open_(f.i0, f.j0);
   return true;
 }
 

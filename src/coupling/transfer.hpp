@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "base/field.hpp"
@@ -64,11 +65,11 @@ public:
     base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int block) {
       for (int k = block * grains_a_block; k < std::min(n, (block + 1) * grains_a_block); ++k) {
         std::array<double, M> sum{};
-        for_each_row(k, [&](int i0, int ni, int j, double wy, const double* wx, const double* open) {
+        for_each_row(k, [&](int i0, auto ni, int j, double wy, const auto& wx) {
           for (std::size_t m = 0; m < M; ++m) {
             const double* v = fields[m]->row(j) + i0;
             double row = 0;
-            for (int a = 0; a < ni; ++a) row += wx[a] * open[a] * v[a];
+            for (int a = 0; a < ni; ++a) row += wx(a) * v[a];
             sum[m] += wy * row;
           }
         });
@@ -91,11 +92,11 @@ public:
         for (int k = bin_first_[bin]; k < bin_first_[bin + 1]; ++k) {
           const int n = order_[k];
           const std::array<double, M> value = values(grain_[n]);
-          for_each_row(n, [&](int i0, int ni, int j, double wy, const double* wx, const double* open) {
+          for_each_row(n, [&](int i0, auto ni, int j, double wy, const auto& wx) {
             for (std::size_t m = 0; m < M; ++m) {
               double* to = fields[m]->row(j) + i0;
               const double share = wy * value[m];
-              for (int a = 0; a < ni; ++a) to[a] += share * (wx[a] * open[a]);
+              for (int a = 0; a < ni; ++a) to[a] += share * wx(a);
             }
           });
         }
@@ -108,16 +109,54 @@ private:
   /// The volumes a grain's kernel touches.
   struct Footprint {
     int i0, ni, j0, nj;
+    bool whole;  ///< all of them are entirely open
   };
-  /// Calls visit once for each row of volumes of the nth grain, with the weights along x and the open fractions of the
-  /// row.
+  /// Calls visit(first column, number of columns, row, weight along y, weight along x of each column times its open
+  /// fraction) once for each row of volumes of the nth grain.  The usual numbers of columns are constants to the
+  /// compiler: loops of three or four cost more than what is in them.
   template <class Visit>
   void for_each_row(int n, Visit&& visit) const {
+    switch (footprint_[n].ni) {
+      case 2:
+        return for_each_row_of<2>(n, visit);
+      case 3:
+        return for_each_row_of<3>(n, visit);
+      case 4:
+        return for_each_row_of<4>(n, visit);
+      case 5:
+        return for_each_row_of<5>(n, visit);
+      case 6:
+        return for_each_row_of<6>(n, visit);
+      default:
+        break;
+    }
     const Footprint& f = footprint_[n];
-    const double *wx = &weight_x_[static_cast<std::size_t>(n) * widest_],
-                 *wy = &weight_y_[static_cast<std::size_t>(n) * widest_];
-    for (int b = 0; b < f.nj; ++b) visit(f.i0, f.ni, f.j0 + b, wy[b], wx, open_.row(f.j0 + b) + f.i0);
+    const double *wx = weight_x(n), *wy = weight_y(n);
+    for (int b = 0; b < f.nj; ++b) {
+      const double* open = open_.row(f.j0 + b) + f.i0;
+      visit(f.i0, f.ni, f.j0 + b, wy[b], [wx, open](int a) { return wx[a] * open[a]; });
+    }
   }
+  template <int ni, class Visit>
+  void for_each_row_of(int n, Visit& visit) const {
+    const Footprint& f = footprint_[n];
+    const double* wy = weight_y(n);
+    std::array<double, ni> wx;
+    std::copy_n(weight_x(n), ni, wx.begin());
+    constexpr std::integral_constant<int, ni> columns;
+    if (f.whole) {
+      for (int b = 0; b < f.nj; ++b) visit(f.i0, columns, f.j0 + b, wy[b], [&wx](int a) { return wx[a]; });
+    } else {
+      for (int b = 0; b < f.nj; ++b) {
+        const double* open = open_.row(f.j0 + b) + f.i0;
+        visit(f.i0, columns, f.j0 + b, wy[b], [&wx, open](int a) { return wx[a] * open[a]; });
+      }
+    }
+  }
+  double* weight_x(int n) { return &weight_x_[static_cast<std::size_t>(n) * widest_]; }
+  double* weight_y(int n) { return &weight_y_[static_cast<std::size_t>(n) * widest_]; }
+  const double* weight_x(int n) const { return &weight_x_[static_cast<std::size_t>(n) * widest_]; }
+  const double* weight_y(int n) const { return &weight_y_[static_cast<std::size_t>(n) * widest_]; }
   void locate_one(int n, double x, double y);
   /// The nth grain, all of whose kernel is in closed volumes, as beside a pipe in cells larger than itself, belongs to
   /// the nearest volume with water; false when there is none within volumes_to_water of the kernel.
