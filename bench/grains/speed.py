@@ -25,7 +25,7 @@ import peers
 # grains: steps of warm-up and of the timed stretch of LAMMPS and LIGGGHTS
 SIZES = {6240: (1000, 10000), 199680: (100, 400)}
 REBUILD = 100  # steps; `livebed bench grains` does the same
-CODES = ("LAMMPS", "LIGGGHTS", "Livebed")
+CODES = ("LAMMPS", "LIGGGHTS", "Livebed", "Livebed, mixed")  # the last: grains.precision = mixed
 
 
 def bench(build, grains, cores, *more):
@@ -69,8 +69,8 @@ def time_peer(code, out, told, grains, cores):
     return dict(rate=int(atoms) * int(done) / float(seconds), contacts=contacts)
 
 
-def time_livebed(build, grains, cores):
-    told = bench(build, grains, cores)
+def time_livebed(build, grains, cores, *more):
+    told = bench(build, grains, cores, *more)
     return dict(rate=told["grain_steps_per_second"], contacts=told["contacts_per_grain"], commit=told["commit"])
 
 
@@ -109,8 +109,9 @@ def main():
             runs = {code: [] for code in CODES}
             for turn in range(a.rounds):
                 for code in CODES:
-                    if code == "Livebed":
-                        runs[code].append(watched(time_livebed, a.build, grains, cores))
+                    if code.startswith("Livebed"):
+                        more = ("--mixed",) if code.endswith("mixed") else ()
+                        runs[code].append(watched(time_livebed, a.build, grains, cores, *more))
                     else:
                         runs[code].append(watched(time_peer, code, a.out, told, grains, cores))
                     print(f"{grains} grains, {cores} cores, round {turn + 1}, {code}: {runs[code][-1]}", file=sys.stderr)
@@ -118,7 +119,7 @@ def main():
             ours = statistics.median(r["rate"] for r in runs["Livebed"])
             for code in CODES:
                 rates = [1e-6 * r["rate"] for r in runs[code]]
-                faster = "" if code == "Livebed" else f"{1e-6 * ours / statistics.median(rates):.1f}"
+                faster = "" if code.startswith("Livebed") else f"{1e-6 * ours / statistics.median(rates):.1f}"
                 print(f"| {grains} | {cores} | {code} | {statistics.median(rates):.2f} ({min(rates):.2f} to"
                       f" {max(rates):.2f}) | {faster} | {runs[code][-1]['contacts']:.2f} |"
                       f" {max(r['others'] for r in runs[code]):.2f} |", flush=True)

@@ -51,7 +51,7 @@ void renew(Bed& bed, const Sweep& constants) {
          static_cast<double>(bed.steps) * bed.params.step, fault.what());
   }
   spread_sleep(bed);
-  fill_records(bed.state, bed.contacts, constants.mixed, bed.steps, bed.records, bed.scratch.memory);
+  fill_records(bed.state, bed.contacts, bed.steps, bed.records, bed.scratch.memory);
 }
 
 }  // namespace
@@ -82,14 +82,12 @@ void advance(Bed& bed, int steps) {
   bed.records.call_began = bed.steps;
   const Sweep constants = make_sweep(bed.params, bed.pipe, bed.state.count());
   const int between_looks = steps_between_looks(bed.params);
-  const bool same_precision = bed.contacts.spring.single() == constants.mixed;
-  bed.contacts.set_single(constants.mixed);
   prepare_sleep(bed);
-  if (!same_precision || !lists_hold(bed.state, bed.contacts, constants.reach, bed.pipe)) {
+  if (!lists_hold(bed.state, bed.contacts, constants.reach, bed.pipe)) {
     renew(bed, constants);
   } else {
     if (!bed.records.hold(bed.contacts) || bed.records.asleep.empty()) spread_sleep(bed);
-    fill_records(bed.state, bed.contacts, constants.mixed, bed.steps, bed.records, bed.scratch.memory);
+    fill_records(bed.state, bed.contacts, bed.steps, bed.records, bed.scratch.memory);
   }
   if (bed.params.sleep) wake_by_fluid(bed);
   for (int left = steps; left > 0;) {

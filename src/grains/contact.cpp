@@ -11,7 +11,6 @@ Sweep make_sweep(const Params& p, const Circle& pipe, int count) {
   // An even number of fixed grains fills every piece of the bed, so that even and odd ones alternate across the seams.
   const double pairs = p.pieces * std::max(1.0, std::round(p.length / (2 * p.diameter * p.pieces)));
   return {.count = count,
-          .mixed = p.precision == Precision::mixed,
           .law = p.law,
           .pair = pair_contact(p),
           .bottom = wall_contact(p, p.bottom),
@@ -84,11 +83,11 @@ void fill_slice(const State& s, int slice, std::int64_t steps, Records& r) {
   }
 }
 
-void fill_records(const State& s, const Contacts& c, bool mixed, std::int64_t steps, Records& r, base::Arena& memory) {
+void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r, base::Arena& memory) {
   const int n = s.count(), slices = c.slices(), last = nobody(n);
   r.motion_known = false;
-  if (!r.hold(c) || r.mixed != mixed) {
-    r.mixed = mixed;
+  if (!r.hold(c)) {
+    r.mixed = c.spring.single();
     give_memory(r, last + 1, slices, memory);
     base::for_each_item(0, slices, [&](int slice) { fill_slice(s, slice, steps, r); });
     // Lanes without a grain have a radius all the same: a mass of nothing would spread.  They are not where nobody is,

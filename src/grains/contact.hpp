@@ -101,8 +101,7 @@ private:
 inline constexpr int slices_per_block = 8;  ///< what one thread takes at a time
 /// The constants of a step.
 struct Sweep {
-  int count;   ///< of grains
-  bool mixed;  ///< precision
+  int count;  ///< of grains
   Law law;
   Contact pair, bottom, pipe_wall;
   Reach reach;
@@ -122,7 +121,7 @@ Sweep make_sweep(const Params& p, const Circle& pipe, int count);
 
 /// Fills the records from the state, those of sleeping slices once for each new lists, and clears the pipe's impulse.
 /// steps: of the bed so far.
-void fill_records(const State& s, const Contacts& c, bool mixed, std::int64_t steps, Records& r, base::Arena& memory);
+void fill_records(const State& s, const Contacts& c, std::int64_t steps, Records& r, base::Arena& memory);
 
 /// The same for one slice, asleep or not.
 void fill_slice(const State& s, int slice, std::int64_t steps, Records& r);

@@ -470,7 +470,7 @@ auto with_laws(const Sweep& k, Run&& run) {
 /// The same for its laws and its precision.
 template <bool keeps, class Run>
 auto with_form(const Sweep& k, Run&& run) {
-  return k.mixed ? with_laws<keeps, float>(k, run) : with_laws<keeps, double>(k, run);
+  return k.reach.single ? with_laws<keeps, float>(k, run) : with_laws<keeps, double>(k, run);
 }
 
 bool step_slices(const Sweep& k, Contacts& c, Records& r, int begin, int end, bool back) {

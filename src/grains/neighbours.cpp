@@ -388,6 +388,7 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
   each_grain_array(s, [&](auto& a) { reorder(a, n, w); });
 
   const int old_slices = c.slices();
+  c.set_single(reach.single);
   count_rows(s, c, w, reach.rolling);
   c.near.resize(slices);
   base::for_each_item(0, slices, [&](int slice) {
@@ -410,7 +411,8 @@ void rebuild(State& s, Contacts& c, ListScratch& w, const Reach& reach, const Ci
 }
 
 bool lists_hold(const State& s, const Contacts& c, const Reach& reach, const Circle& pipe) {
-  if (!c.built() || static_cast<int>(c.x_built.size()) != nobody(s.count())) return false;
+  if (!c.built() || c.spring.single() != reach.single || static_cast<int>(c.x_built.size()) != nobody(s.count()))
+    return false;
   if (pipe.present != c.pipe_built.present || pipe.diameter != c.pipe_built.diameter) return false;
   const double limit = square(0.5 * reach.skin);
   const auto within = [&](double dx, double dy) {

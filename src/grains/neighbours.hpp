@@ -112,10 +112,16 @@ struct Reach {
   double skin;            ///< [m]
   double floor_diameter;  ///< of the fixed grains of the floor, 0 for a plane [m]
   bool rolling = false;   ///< contacts remember rolling, too
+  bool single = false;    ///< what they remember is kept in single precision
 };
 
 inline Reach reach_of(const Params& p) {
-  return {period(p), p.gamma, p.skin * p.diameter, p.floor == Floor::grains ? p.diameter : 0.0, p.rolling_friction > 0};
+  return {period(p),
+          p.gamma,
+          p.skin * p.diameter,
+          p.floor == Floor::grains ? p.diameter : 0.0,
+          p.rolling_friction > 0,
+          p.precision == Precision::mixed};
 }
 
 /// The index that stands for "no neighbour" among n grains: one past the last lane of the last slice.
@@ -148,8 +154,9 @@ std::uint8_t near_what(double x, double y, double diameter, const Reach& reach, 
 /// The slot that grain i has for its neighbour j; -1: it has none.
 std::ptrdiff_t slot_of(const Contacts& c, int i, int j);
 
-/// True while the lists are complete: no grain and no pipe has moved more than half a skin since they were built.  Two
-/// grains outside each other's lists were then more than one skin apart and cannot have met.  Sleepers do not move.
+/// True while the lists are complete and their histories in the precision asked for: no grain and no pipe has moved
+/// more than half a skin since they were built.  Two grains outside each other's lists were then more than one skin
+/// apart and cannot have met.  Sleepers do not move.
 bool lists_hold(const State& state, const Contacts& contacts, const Reach& reach, const Circle& pipe);
 
 /// The neighbours of one grain in the order of its list.

@@ -10,13 +10,10 @@ namespace livebed::grains {
 class SlotArray {
 public:
   bool single() const { return single_; }
-  /// From now on in this precision; the numbers are kept.
+  /// From now on in this precision.  When it is another one the numbers are gone, and so is their memory.
   void set_single(bool single) {
     if (single == single_) return;
-    if (single)
-      singles_.assign(doubles_.begin(), doubles_.end()), doubles_ = {};
-    else
-      doubles_.assign(singles_.begin(), singles_.end()), singles_ = {};
+    doubles_ = Array(), singles_ = base::AlignedVector<float>();
     single_ = single;
   }
 
