@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The same lattice of grains settled by LAMMPS, LIGGGHTS and Livebed, and the beds held against each other.
 
-  settle.py BUILD OUT [--figure FILE.svg]
+  settle.py BUILD OUT [--figure FILE.svg] [--only SPREAD]...
 
 For every friction and size spread of CASES and every seed the three codes get the same grains at the same places with the same
 constants, let them settle in a thick fluid and then without.  A settled bed is one of many: codes agree as well as two
@@ -21,11 +21,12 @@ import livebed
 import peers
 
 D = 2e-3
-COLUMNS, ROWS = 60, 26
-LENGTH = COLUMNS * 1.06 * D
-STAGES = ((40000, 5e-4), (40000, 0.0))  # steps, drag on each grain [N s/m]
+COUNT = 1560
+LENGTH = 60 * 1.06 * D
+STEPS, DRAG = 40000, 5e-4  # with that drag on each grain [N s/m], and as many without, at 20 steps a contact
 # Friction, size spread and seeds: equal grains crystallise, and their beds differ more from seed to seed.
 CASES = [(friction, spread, 8 if spread == 0 else 3) for spread in (0.0, 0.05) for friction in (0.1, 0.3, 0.55)]
+CASES.append((0.55, 0.4, 3))  # the largest more than twice the smallest
 CODES = ("LAMMPS", "LIGGGHTS", "Livebed")
 TARGETS = dict(height=0.005, contacts=0.03, filled=0.01)  # height and contacts relative, share of area absolute
 
@@ -33,20 +34,23 @@ TARGETS = dict(height=0.005, contacts=0.03, filled=0.01)  # height and contacts 
 def lattice(spread, seed):
     """Grains at rest on a shaken square lattice: rows of d, x, y, u, v, omega."""
     generator = random.Random(seed)
-    pitch, room = LENGTH / COLUMNS, 0.01 * D
+    rise, room = max(1.06, 1.03 + spread) * D, 0.01 * D
+    columns = round(LENGTH / rise - 0.4)
     grains = []
-    for i in range(COLUMNS * ROWS):
+    for i in range(COUNT):
         d = D * (1 + spread * (2 * generator.random() - 1))
-        x = (i % COLUMNS + 0.5) * pitch + room * (2 * generator.random() - 1)
-        y = (i // COLUMNS + 0.5) * 1.06 * D + room * (2 * generator.random() - 1)
+        x = (i % columns + 0.5) * LENGTH / columns + room * (2 * generator.random() - 1)
+        y = (i // columns + 0.5) * rise + room * (2 * generator.random() - 1)
         grains.append([d, x, y, 0.0, 0.0, 0.0])
     return grains
 
 
 def settled(code, build, out, friction, spread, seed):
     """Rows of id, d, x, y, u, v, omega of the settled bed, and the spring of two grains."""
-    params = dict(diameter=D, length=LENGTH, stiffness=5500, steps_per_contact=20, restitution=0.3, friction=friction,
-                  tension="none")
+    finer = 1 if spread < 0.1 else 3  # the smallest pairs have the shortest contacts
+    stages = ((finer * STEPS, DRAG), (finer * STEPS, 0.0))
+    params = dict(diameter=D, length=LENGTH, stiffness=5500, steps_per_contact=20 * finer, restitution=0.3,
+                  friction=friction, tension="none")
     start = lattice(spread, seed)
     told = livebed.constants(build, params, start)
     folder = f"{out}/{code.lower()}-{friction}-{spread}-{seed}"
@@ -54,15 +58,15 @@ def settled(code, build, out, friction, spread, seed):
     if not os.path.exists(result):
         os.makedirs(folder, exist_ok=True)
         if code == "Livebed":
-            rows = livebed.run(build, params, start, STAGES)["looks"][-1]["grains"]
+            rows = livebed.run(build, params, start, stages)["looks"][-1]["grains"]
         else:
             lammps = code == "LAMMPS"
-            peers.write_data(f"{folder}/in.data", start, peers.sphere_density(told), LENGTH, 3 * ROWS * D,
+            peers.write_data(f"{folder}/in.data", start, peers.sphere_density(told), LENGTH, 0.16,
                              types=1 if lammps else 2)
             deck = peers.lammps_deck if lammps else peers.liggghts_deck
-            peers.call(folder, "lmp" if lammps else "liggghts", deck(told, 0.2 * D, stages=STAGES))
+            peers.call(folder, "lmp" if lammps else "liggghts", deck(told, 0.2 * D, stages=stages))
             step, rows = peers.read_dump(f"{folder}/out.dump")[-1]
-            if step != sum(n for n, _ in STAGES):  # LIGGGHTS does not always say by its exit code that it gave up
+            if step != sum(n for n, _ in stages):  # LIGGGHTS does not always say by its exit code that it gave up
                 sys.exit(f"{code} ended at step {step} in {folder}")
             os.remove(f"{folder}/out.dump")
         with open(result, "w") as f:
@@ -151,13 +155,14 @@ def main():
     parser.add_argument("build")
     parser.add_argument("out")
     parser.add_argument("--figure")
+    parser.add_argument("--only", type=float, action="append", help="a size spread")
     a = parser.parse_args()
     beds = {code: [] for code in CODES}
     print("| friction | spread | code | height [mm] | off | contacts a grain | off | filled | off | "
           "mean speed [m/s] | forces, largest difference of shares |\n|" + "---|" * 11)
     # "off": Livebed against the code, with the standard error of that difference.
     missed = False
-    for friction, spread, seeds in CASES:
+    for friction, spread, seeds in [case for case in CASES if case[1] in (a.only or [case[1]])]:
         means, errors, pooled = {}, {}, {}
         for code in CODES:
             measured = [measure(*settled(code, a.build, a.out, friction, spread, seed + 1)) for seed in range(seeds)]
