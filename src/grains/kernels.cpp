@@ -101,7 +101,7 @@ template <class Form>
     return {space > 0.0f, space / (way.about + distance), dx * inverse, dy * inverse};
   } else {
     const Lanes dx = way.dx[0], dy = way.dy[0], contact_distance = way.contact_distance[0];
-    const Lanes d2 = dx * dx + dy * dy, distance = root(d2), inverse = 1.0 / distance;
+    const Lanes d2 = dx * dx + dy * dy, inverse = reciprocal_root(d2), distance = d2 * inverse;
     return {d2 < contact_distance * contact_distance, contact_distance - distance, dx * inverse, dy * inverse};
   }
 }

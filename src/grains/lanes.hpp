@@ -140,6 +140,16 @@ inline Real smaller(const Real& a, const Real& b) {
 #endif
 }
 
+[[gnu::always_inline]] inline SingleRow root_row(const SingleRow& a) {
+#if LIVEBED_WIDTH == 8
+  return (SingleRow)_mm256_sqrt_ps((__m256)a);
+#elif LIVEBED_WIDTH == 4
+  return (SingleRow)_mm_sqrt_ps((__m128)a);
+#else
+  return SingleRow{std::sqrt(a[0]), std::sqrt(a[1])};
+#endif
+}
+
 /// A row of doubles in single precision, and back.
 [[gnu::always_inline]] inline SingleRow narrow(const Lanes& a) {
 #if LIVEBED_WIDTH == 8
@@ -158,6 +168,14 @@ inline Real smaller(const Real& a, const Real& b) {
 #else
   return Lanes{a[0], a[1]};
 #endif
+}
+
+/// 1/sqrt(a) to a few units of the last place: a first guess in single precision, whose root and reciprocal take a
+/// third of the time of those in double, and one step of third order.
+[[gnu::always_inline]] inline Lanes reciprocal_root(const Lanes& a) {
+  const SingleRow guess = 1.0f / root_row(narrow(a));
+  const Lanes y = widen(guess), h = 1.0 - a * (y * y);
+  return y + (y * h) * (0.5 + 0.375 * h);
 }
 
 /// The sum of both rows, in both of them.

@@ -197,3 +197,11 @@ TEST(laws, records_survive_being_turned_into_lanes_and_back) {
     for (int f = 0; f < 2; ++f) EXPECT_EQ(back[2 * l + f], 100 + 2 * at[l] + f);
   }
 }
+
+TEST(laws, reciprocal_root_to_the_last_places) {
+  for (double a : {1e-12, 3.7e-9, 1e-7, 0.25, 2.0, 1e4}) {
+    const Lanes got = reciprocal_root(all_lanes(a));
+    EXPECT_NEAR(got[0] * std::sqrt(a), 1, 5e-16) << a;
+    EXPECT_EQ(got[width - 1], got[0]);
+  }
+}

@@ -82,10 +82,13 @@ TEST(sleep, ends_when_the_current_drags) {
   Bed bed = bed_at_rest();
   advance(bed, falls_asleep_within(bed));
   const double w = mass(bed.params, bed.params.diameter) * submerged_gravity(bed.params);
-  const int top = highest(bed);
+  // A grain that little but its own weight presses; the highest may be wedged.
+  const Array& load = bed.state.sleep.load;
+  const int top = static_cast<int>(std::min_element(load.begin(), load.end()) - load.begin());
+  ASSERT_EQ(bed.state.sleep.asleep[top], 1);
   const int id = bed.state.id[top];
   // Below the threshold it sleeps on, and its impulse is counted all the same.
-  const double limit = bed.params.sleep_drag * bed.state.sleep.load[top];
+  const double limit = bed.params.sleep_drag * load[top];
   EXPECT_GT(limit, bed.params.sleep_drag * w);
   EXPECT_LT(limit, 3 * bed.params.sleep_drag * w);
   bed.state.fluid.fx[top] = 0.5 * limit;
