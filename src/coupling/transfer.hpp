@@ -117,6 +117,8 @@ private:
   template <class Visit>
   void for_each_row(int n, Visit&& visit) const {
     switch (footprint_[n].ni) {
+      case 1:
+        return for_each_row_of<1>(n, visit);
       case 2:
         return for_each_row_of<2>(n, visit);
       case 3:

@@ -75,8 +75,15 @@ void SolidFraction::spread(double x, double y, double area, base::Field& onto) c
   const auto weigh = [&](double at, double h, double* weight, int& first) {
     first = static_cast<int>(std::ceil((at - reach_) / h - 0.5));
     const int last = std::min(static_cast<int>(std::floor((at + reach_) / h - 0.5)), first + most_weights - 1);
-    double sum = 0;
-    for (int i = first; i <= last; ++i) sum += weight[i - first] = 1 + std::cos(pi * ((i + 0.5) * h - at) / reach_);
+    // The cosines of equal steps, each from the one before.
+    const double step = pi * h / reach_, begin = pi * ((first + 0.5) * h - at) / reach_;
+    const double turn_cos = std::cos(step), turn_sin = std::sin(step);
+    double c = std::cos(begin), s = std::sin(begin), sum = 0;
+    for (int i = first; i <= last; ++i) {
+      sum += weight[i - first] = 1 + c;
+      const double next = c * turn_cos - s * turn_sin;
+      s = s * turn_cos + c * turn_sin, c = next;
+    }
     for (int i = first; i <= last; ++i) weight[i - first] /= sum;
     return last - first + 1;
   };

@@ -9,12 +9,14 @@
 #include "base/math.hpp"
 #include "case/read.hpp"
 #include "case/resolved.hpp"
+#include "io/file.hpp"
 #include "io/table.hpp"
 #include "report/references.hpp"
 #include "run/execute.hpp"
 #include "validate/picture.hpp"
 #include "validate/references.hpp"
 #include "validate/scour_runs.hpp"
+#include "validate/seed_table.hpp"
 
 namespace livebed::validate {
 
@@ -59,35 +61,102 @@ Profile profile_of_mao(double t) {
   return p;
 }
 
-std::string csv_of_depths(const std::vector<Scour>& all) {
-  std::string text = "# S/D in time; each seed with the commit and the hash of its resolved case\n" + runs_told(all);
-  text += "seed,t_s,S_over_D\n";
-  for (const Scour& s : all)
-    for (std::size_t n = 0; n < s.t.size(); ++n) text += fmt::format("{},{:.4f},{:.5f}\n", s.seed, s.t[n], s.depth[n]);
-  return text;
+/// S/D in time and the bed lines of all seeds, as they are in the files.
+struct Tables {
+  SeedTable depths{"S/D in time; each seed with the commit and the hash of its resolved case", "seed,t_s,S_over_D"};
+  SeedTable lines;
+};
+
+/// every: seconds of the run from one bed line to the next.
+void add_to_tables(const Scour& s, double every, Tables& tables) {
+  std::string depths, lines;
+  for (std::size_t n = 0; n < s.t.size(); ++n) depths += fmt::format("{},{:.4f},{:.5f}\n", s.seed, s.t[n], s.depth[n]);
+  for (int k = 0; k * every <= s.t_lines.back() + 1e-6; ++k) {
+    const std::vector<double>& line = line_at(s, k * every);
+    // Lines are sampled at half a grain; every fifth tells as much.
+    for (std::size_t n = 0; n < s.x.size(); n += 5)
+      lines += fmt::format("{},{:.5g},{:.4f},{:.4f}\n", s.seed, k * every, s.x[n], line[n]);
+  }
+  tables.depths.add(s.seed, run_told(s), std::move(depths));
+  tables.lines.add(s.seed, run_told(s), std::move(lines));
 }
 
-/// Bed lines `every` so many seconds of the run.
-std::string csv_of_profiles(const std::vector<Scour>& all, double every) {
-  std::string text =
-      fmt::format("# bed lines over the original bed every {:.5g} s; x from the pipe's centre\n", every) +
-      runs_told(all);
-  text += "seed,t_s,x_D,y_bed_D\n";
-  for (const Scour& s : all)
-    for (int k = 0; k * every <= s.t_lines.back() + 1e-6; ++k) {
-      const std::vector<double>& line = line_at(s, k * every);
-      // Lines are sampled at half a grain; every fifth tells as much.
-      for (std::size_t n = 0; n < s.x.size(); n += 5)
-        text += fmt::format("{},{:.5g},{:.4f},{:.4f}\n", s.seed, k * every, s.x[n], line[n]);
-    }
-  return text;
+/// One seed's part of two columns; where a third is at a value, if one is given.
+struct Points {
+  std::vector<double> x, y;
+};
+Points points_of(const io::Table& t, unsigned seed, const char* x, const char* y, const char* where = nullptr,
+                 double value = 0) {
+  const std::vector<double>&seeds = t.column("seed"), &xs = t.column(x), &ys = t.column(y);
+  Points p;
+  for (std::size_t n = 0; n < seeds.size(); ++n)
+    if (seeds[n] == seed && (where == nullptr || std::abs(t.column(where)[n] / value - 1) < 1e-3))
+      p.x.push_back(xs[n]), p.y.push_back(ys[n]);
+  return p;
 }
 
-Result hold_against_mao(const Experiment& e, const Tell& tell) {
+std::vector<Picture> draw(const Experiment& e, const Tables& tables, double unit) {
+  const io::Table measured = io::parse_table(report::mao_depth, "mao1986_livebed_depth.csv");
+  const io::Table two_phase = io::parse_table(sedfoam_depth, "sedfoam_kepsilon_livebed_depth.csv");
+  const std::string depths = tables.depths.text(), lines = tables.lines.text();
+  const io::Table depth_table = io::parse_table(depths, e.name + "-depth.csv"),
+                  line_table = io::parse_table(lines, e.name + "-profiles.csv");
+  const auto each_seed = [&](auto&& draw_one) {
+    for (unsigned seed = 1; seed <= e.ends.size(); ++seed)
+      if (tables.depths.has(seed))
+        draw_one(seed, fmt::format("Livebed, seed {}", seed), colours[(seed - 1) % colours.size()]);
+  };
+
+  report::Chart chart{{e.scaled ? "t scaled by T [s]" : "t [s]", 0, 40}, {"S/D", 0, 1.1}, {}};
+  chart.curves.push_back({"Mao (1986)", "#000000", measured.column("t_s"), measured.column("S_over_D"), true});
+  chart.curves.push_back(
+      {"two-phase k-epsilon (sedFoam)", "#999999", two_phase.column("t_s"), two_phase.column("S_over_D"), false, true});
+  each_seed([&](unsigned seed, const std::string& name, const std::string& colour) {
+    Points p = points_of(depth_table, seed, "t_s", "S_over_D");
+    for (double& t : p.x) t /= unit;
+    chart.curves.push_back({name, colour, std::move(p.x), std::move(p.y)});
+  });
+  std::vector<Panel> panels_of;
+  for (double at : report::mao_profile_times) {
+    report::Chart bed{{"x/D", -4, 7}, {"y/D", -1.2, 0.8}, {}};
+    const Profile p = profile_of_mao(at);
+    bed.curves.push_back({"Mao (1986)", "#000000", p.x, p.y, true});
+    each_seed([&](unsigned seed, const std::string& name, const std::string& colour) {
+      Points line = points_of(line_table, seed, "x_D", "y_bed_D", "t_s", at * unit);
+      if (!line.x.empty()) bed.curves.push_back({name, colour, std::move(line.x), std::move(line.y)});
+    });
+    panels_of.push_back({fmt::format("{} s", at), bed});
+  }
+  return {{e.name + "-depth.svg", picture(chart)},
+          {e.name + "-profiles.svg", panels(panels_of, 1)},
+          {e.name + "-depth.csv", depths},
+          {e.name + "-profiles.csv", lines}};
+}
+
+/// The rows of seeds that are not made now, as the file in the folder has them.
+void keep_rows(const Experiment& e, const Seeds& seeds, Result& result) {
+  const std::filesystem::path file = seeds.folder / (e.name + ".json");
+  if (!std::filesystem::exists(file)) return;
+  for (Row& row : rows_of_json(io::read_file(file), file.string()))
+    if (std::none_of(seeds.made.begin(), seeds.made.end(),
+                     [&](unsigned seed) { return row.name.starts_with(fmt::format("{} seed {}:", e.name, seed)); }))
+      result.rows.push_back(std::move(row));
+}
+
+void keep_table(const std::filesystem::path& file, SeedTable& table) {
+  if (std::filesystem::exists(file)) table.keep(io::read_file(file), file.string());
+}
+
+Result hold_against_mao(const Experiment& e, const Seeds& seeds, const Tell& tell) {
+  for (unsigned seed : seeds.made)
+    if (seed < 1 || seed > e.ends.size())
+      base::fail(base::Exit::command_line, "{} has no seed {}; its seeds are 1 to {}", e.name, seed, e.ends.size());
   run::obey_signals();
   Result result;
+  if (!seeds.made.empty()) keep_rows(e, seeds, result);
   std::vector<Scour> all;
   for (unsigned seed = 1; seed <= e.ends.size(); ++seed) {
+    if (!seeds.made.empty() && std::count(seeds.made.begin(), seeds.made.end(), seed) == 0) continue;
     std::vector<std::string> keys = e.keys;
     keys.push_back(fmt::format("bed.seed={}", seed));
     if (e.ends[seed - 1] > 0) {
@@ -103,13 +172,13 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
   }
   if (all.empty()) base::fail(base::Exit::signal, "stopped before the grains of any seed of {} were let go", e.name);
   const io::Table measured = io::parse_table(report::mao_depth, "mao1986_livebed_depth.csv");
-  const io::Table two_phase = io::parse_table(sedfoam_depth, "sedfoam_kepsilon_livebed_depth.csv");
   const double scale = all.front().resolved.time_scale / report::mao_time_scale;
   const double unit = e.scaled ? scale : 1.0;  // of the run's time over the experiment's
   const char* when = e.scaled ? "t (scaled to T) " : "";
 
   const auto add = [&](const Scour& s, const std::string& what, double value, const std::string& unit_of, double low,
                        double high, const std::string& reference) {
+    if (!std::isfinite(value) && s.t.back() < 37 * unit) return;  // not so far yet, or not meant to go so far
     Row row{fmt::format("{} seed {}: {}", e.name, s.seed, what), value, unit_of};
     // With enlarged grains and a time that is scaled the numbers are told, not judged.
     if (std::isfinite(value) && !e.scaled) row.low = low, row.high = high;
@@ -143,30 +212,14 @@ Result hold_against_mao(const Experiment& e, const Tell& tell) {
     add(s, "wall time", s.wall / 3600, "h", none, none, "");
   }
 
-  report::Chart chart{{e.scaled ? "t scaled by T [s]" : "t [s]", 0, 40}, {"S/D", 0, 1.1}, {}};
-  chart.curves.push_back({"Mao (1986)", "#000000", measured.column("t_s"), measured.column("S_over_D"), true});
-  chart.curves.push_back(
-      {"two-phase k-epsilon (sedFoam)", "#999999", two_phase.column("t_s"), two_phase.column("S_over_D"), false, true});
-  for (const Scour& s : all) {
-    report::Curve curve{fmt::format("Livebed, seed {}", s.seed), colours[(s.seed - 1) % colours.size()], {}, s.depth};
-    for (double t : s.t) curve.x.push_back(t / unit);
-    chart.curves.push_back(std::move(curve));
+  Tables tables{.lines{fmt::format("bed lines over the original bed every {:.5g} s; x from the pipe's centre", unit),
+                       "seed,t_s,x_D,y_bed_D"}};
+  for (const Scour& s : all) add_to_tables(s, unit, tables);
+  if (!seeds.made.empty()) {
+    keep_table(seeds.folder / (e.name + "-depth.csv"), tables.depths);
+    keep_table(seeds.folder / (e.name + "-profiles.csv"), tables.lines);
   }
-  result.pictures.push_back({e.name + "-depth.svg", picture(chart)});
-  std::vector<Panel> panels_of;
-  for (double at : report::mao_profile_times) {
-    report::Chart bed{{"x/D", -4, 7}, {"y/D", -1.2, 0.8}, {}};
-    const Profile p = profile_of_mao(at);
-    bed.curves.push_back({"Mao (1986)", "#000000", p.x, p.y, true});
-    for (const Scour& s : all)
-      if (s.t.back() >= at * unit)
-        bed.curves.push_back({fmt::format("Livebed, seed {}", s.seed), colours[(s.seed - 1) % colours.size()], s.x,
-                              line_at(s, at * unit)});
-    panels_of.push_back({fmt::format("{} s", at), bed});
-  }
-  result.pictures.push_back({e.name + "-profiles.svg", panels(panels_of, 1)});
-  result.pictures.push_back({e.name + "-depth.csv", csv_of_depths(all)});
-  result.pictures.push_back({e.name + "-profiles.csv", csv_of_profiles(all, unit)});
+  result.pictures = draw(e, tables, unit);
   return result;
 }
 
@@ -177,31 +230,35 @@ Experiment other_grains(std::string name, std::vector<std::string> keys, int see
 
 }  // namespace
 
-Result mao(const Tell& tell) { return hold_against_mao({"mao", mao_case, {0, 12, 12}}, tell); }
-Result mao_07mm(const Tell& tell) {
+Result mao(const Seeds& seeds, const Tell& tell) {
+  return hold_against_mao({"mao", mao_case, {0, 12, 12}}, seeds, tell);
+}
+Result mao_07mm(const Seeds& seeds, const Tell& tell) {
   return hold_against_mao(
       other_grains("mao-0.7mm",
                    {"grains.diameter=0.7 mm", "mesh.cell_y=0.42 mm", "bed.pieces=3", "time.grain_step=1.4e-5",
                     "time.spin_up=2", "time.end=13.7", "current.rise=1.475"},
                    3),
-      tell);
+      seeds, tell);
 }
-Result mao_1mm(const Tell& tell) {
+Result mao_1mm(const Seeds& seeds, const Tell& tell) {
   return hold_against_mao(
       other_grains("mao-1mm",
                    {"grains.diameter=1 mm", "mesh.cell_y=0.6 mm", "bed.pieces=1", "time.grain_step=2e-5",
                     "time.spin_up=1.5", "time.end=8.1", "current.rise=0.86"},
                    3),
-      tell);
+      seeds, tell);
 }
-Result mao_2mm(const Tell& tell) {
+Result mao_2mm(const Seeds& seeds, const Tell& tell) {
   return hold_against_mao(
       other_grains("mao-2mm-livebed",
                    {"grains.diameter=2 mm", "mesh.cell_y=1.2 mm", "bed.pieces=1", "time.grain_step=4e-5",
                     "time.spin_up=1.5", "time.end=2.85", "current.rise=0.307"},
                    3),
-      tell);
+      seeds, tell);
 }
-Result mao_paper(const Tell& tell) { return hold_against_mao({"mao-2mm", mao_paper_case, {0, 0, 0}, true}, tell); }
+Result mao_paper(const Seeds& seeds, const Tell& tell) {
+  return hold_against_mao({"mao-2mm", mao_paper_case, {0, 0, 0}, true}, seeds, tell);
+}
 
 }  // namespace livebed::validate

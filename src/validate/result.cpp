@@ -1,10 +1,12 @@
 #include "validate/result.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/fault.hpp"
 #include "base/version.hpp"
 #include "validate/bedload.hpp"
 #include "validate/cavity.hpp"
@@ -28,6 +30,12 @@ std::string hash(const std::string& text) {
   return fmt::format("{:016x}", h);
 }
 
+/// A case of several seeds, all of them.
+template <Result (*seeds)(const Seeds&, const Tell&)>
+Result all_of(const Tell& tell) {
+  return seeds({}, tell);
+}
+
 }  // namespace
 
 const std::vector<Case>& cases() {
@@ -43,11 +51,13 @@ const std::vector<Case>& cases() {
       {"grains", "grains: oblique impacts, energy of a gas, rest for every damping, heaps, bins", grains},
       {"bedload", "sand on a flat bed: fall speed, heap, threshold and rate of transport, 2 mm and 0.36 mm", bedload},
       {"sheet-flow", "sheet flow of Revil-Baudard et al. (2015): speed and solid fraction over the height", sheet_flow},
-      {"mao", "live-bed scour of Mao (1986), his sand of 0.36 mm, in seconds: depth in time, bed profiles; hours", mao},
-      {"mao-1mm", "the same with grains of 1 mm on a deep bed, time scaled", mao_1mm},
-      {"mao-0.7mm", "the same with grains of 0.7 mm", mao_07mm},
-      {"mao-2mm-livebed", "the same with grains of 2 mm: cases/mao, not the paper's model", mao_2mm},
-      {"mao-2mm", "the same with the paper's grains of 2 mm, time scaled: Figures 11 and 12", mao_paper},
+      {"mao", "live-bed scour of Mao (1986), his sand of 0.36 mm, in seconds: depth in time, bed profiles; hours",
+       all_of<mao>, mao},
+      {"mao-1mm", "the same with grains of 1 mm on a deep bed, time scaled", all_of<mao_1mm>, mao_1mm},
+      {"mao-0.7mm", "the same with grains of 0.7 mm", all_of<mao_07mm>, mao_07mm},
+      {"mao-2mm-livebed", "the same with grains of 2 mm: cases/mao, not the paper's model", all_of<mao_2mm>, mao_2mm},
+      {"mao-2mm", "the same with the paper's grains of 2 mm, time scaled: Figures 11 and 12", all_of<mao_paper>,
+       mao_paper},
       {"design-chart", "live-bed scour over gap and Shields number: depth and time scale against formulas; hours",
        design_chart},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},
@@ -79,6 +89,23 @@ std::string to_json(const Result& result) {
     list.push_back(entry);
   }
   return list.dump(1) + "\n";
+}
+
+std::vector<Row> rows_of_json(const std::string& text, const std::string& source) {
+  try {
+    std::vector<Row> rows;
+    for (const nlohmann::json& entry : nlohmann::json::parse(text)) {
+      Row row{entry.at("name"), entry.at("value").is_null() ? std::nan("") : entry.at("value").get<double>(),
+              entry.at("unit")};
+      if (!entry.at("target").is_null()) row.low = entry.at("target").at(0), row.high = entry.at("target").at(1);
+      row.reference = entry.at("reference"), row.setup = entry.at("setup");
+      row.seconds = entry.at("wall_s"), row.commit = entry.at("commit");
+      rows.push_back(row);
+    }
+    return rows;
+  } catch (const nlohmann::json::exception& e) {
+    base::fail(base::Exit::input_output, "{} is no list of results of `livebed validate`: {}", source, e.what());
+  }
 }
 
 }  // namespace livebed::validate

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <string>
@@ -38,9 +39,16 @@ struct Result {
 /// Called with a line about progress now and then.
 using Tell = std::function<void(const std::string&)>;
 
+/// Which seeds of a case to make; none: all.  What the case's files in `folder` tell of others is kept.
+struct Seeds {
+  std::vector<unsigned> made{};
+  std::filesystem::path folder{};
+};
+
 struct Case {
   std::string_view name, says;
   Result (*run)(const Tell& tell);
+  Result (*run_seeds)(const Seeds& seeds, const Tell& tell) = nullptr;  ///< null where it has none to choose from
 };
 
 /// Everything that can be validated, in the order in which a list shows it.
@@ -48,5 +56,7 @@ const std::vector<Case>& cases();
 
 /// The rows as a JSON list, each with the commit of the program and the hash of its setup.
 std::string to_json(const Result& result);
+/// The rows of such a list.  Fault (input/output) with the source's name when it is none.
+std::vector<Row> rows_of_json(const std::string& text, const std::string& source);
 
 }  // namespace livebed::validate

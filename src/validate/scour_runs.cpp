@@ -136,11 +136,6 @@ const std::vector<double>& line_at(const Scour& s, double t) {
   return s.lines[nearest - s.t_lines.begin()];
 }
 
-std::string runs_told(const std::vector<Scour>& all) {
-  std::string text;
-  for (const Scour& s : all)
-    text += fmt::format("# seed {}: commit {}, case {}\n", s.seed, s.commit, casefile::hash(s.resolved));
-  return text;
-}
+std::string run_told(const Scour& s) { return fmt::format("commit {}, case {}", s.commit, casefile::hash(s.resolved)); }
 
 }  // namespace livebed::validate

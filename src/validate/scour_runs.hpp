@@ -36,7 +36,7 @@ double mean_depth(const Scour& s, double from, double to);
 double first_time(const Scour& s, double S_over_D);
 /// The bed line nearest to a time [s], at Scour::x.
 const std::vector<double>& line_at(const Scour& s, double t);
-/// Comment lines of a CSV file: who made each run.
-std::string runs_told(const std::vector<Scour>& all);
+/// Who made the run, in a line.
+std::string run_told(const Scour& s);
 
 }  // namespace livebed::validate

@@ -38,7 +38,7 @@ TEST(scour_runs, nearest_line) {
 }
 
 TEST(scour_runs, say_who_made_them) {
-  EXPECT_TRUE(runs_told({rising()}).starts_with("# seed 3: commit abc, case ")) << runs_told({rising()});
+  EXPECT_TRUE(run_told(rising()).starts_with("commit abc, case ")) << run_told(rising());
 }
 
 /// A run that was stopped is gone on with, one of another case is not touched.
