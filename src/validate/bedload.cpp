@@ -28,7 +28,8 @@ struct Sand {
   const char *name, *colour;
 };
 const std::vector<Sand> sands = {{2e-3, "2 mm", "#1f77b4"}, {0.36e-3, "0.36 mm", "#d62728"}};
-const std::vector<double> thetas = {0.04, 0.06, 0.1, 0.2, 0.33, 0.6, 1.0};
+const std::vector<double> thetas = {0.02, 0.03, 0.04, 0.06, 0.1, 0.2, 0.33, 0.6, 1.0};
+constexpr double line_from = 0.05, line_to = 0.4;  // theta; a line of Phi^(2/3) is laid through these
 const std::vector<unsigned> seeds = {1, 2, 3};
 
 FlatBedSetup setup_of(const Sand& sand, double theta, unsigned seed) {
@@ -58,6 +59,19 @@ double threshold(const std::vector<double>& theta, const std::vector<double>& ph
     if (a < 0 && b >= 0) return theta[n] * std::pow(theta[n + 1] / theta[n], -a / (b - a));
   }
   return 0;
+}
+
+/// Where a straight line through Phi^(2/3) over theta meets zero, by least squares: the threshold that a formula like
+/// Meyer-Peter and Mueller's has (their 0.047 was found so), whatever little moves below it.
+double threshold_of_line(const std::vector<double>& theta, const std::vector<double>& phi) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t k = 0; k < theta.size(); ++k) {
+    if (theta[k] < line_from || theta[k] > line_to) continue;
+    const double root = std::cbrt(base::square(phi[k]));
+    n += 1, x += theta[k], y += root, xx += base::square(theta[k]), xy += theta[k] * root;
+  }
+  const double slope = (n * xy - x * y) / (n * xx - x * x);
+  return (x - y / slope) / n;
 }
 
 void add_transport(const Sand& sand, const Tell& tell, Result& result, report::Chart& chart) {
@@ -96,6 +110,10 @@ void add_transport(const Sand& sand, const Tell& tell, Result& result, report::C
           0.03,
           0.06,
           "asked for; Shields diagram"};
+  result.rows.push_back(row);
+  row = {fmt::format("{} sand: threshold of the line through Phi^(2/3), theta 0.06 to 0.33", sand.name),
+         threshold_of_line(at, phi), "-"};
+  row.reference = "Meyer-Peter and Mueller (1948): 0.047";
   result.rows.push_back(row);
   chart.curves.push_back({fmt::format("{} sand", sand.name), sand.colour, each_theta, each_phi, true});
 }
