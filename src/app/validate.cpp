@@ -11,16 +11,16 @@ namespace livebed::app {
 
 namespace {
 
-base::Exit validate_one(const validate::Case& which, const std::string& folder, const std::vector<unsigned>& seeds,
+base::Exit validate_one(const validate::Case& which, const std::string& folder, const std::vector<unsigned>& runs,
                         bool json) {
-  if (!seeds.empty() && which.run_seeds == nullptr)
-    base::fail(base::Exit::command_line, "{} has no seeds to choose from; leave --seed out", which.name);
+  if (!runs.empty() && which.run_some == nullptr)
+    base::fail(base::Exit::command_line, "{} has no runs to choose from; leave --only out", which.name);
   const validate::Tell tell = [json](const std::string& line) {
     std::FILE* to = json ? stderr : stdout;
     fmt::print(to, "{}\n", line);
     std::fflush(to);
   };
-  const validate::Result result = seeds.empty() ? which.run(tell) : which.run_seeds({seeds, folder}, tell);
+  const validate::Result result = runs.empty() ? which.run(tell) : which.run_some({runs, folder}, tell);
   const std::string text = validate::to_json(result);
   io::make_folder(folder);
   io::write_atomically(io::Path(folder) / fmt::format("{}.json", which.name), text);
@@ -41,7 +41,7 @@ base::Exit validate_one(const validate::Case& which, const std::string& folder, 
 void add_validate(CLI::App& app, Action& chosen) {
   struct Options {
     std::string name, folder = "docs/validation", grain;
-    std::vector<unsigned> seeds;
+    std::vector<unsigned> runs;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
@@ -51,16 +51,16 @@ void add_validate(CLI::App& app, Action& chosen) {
   verb->add_option("--out", options->folder, "folder for NAME.json and its figures")->capture_default_str();
   verb->add_option("--grain", options->grain,
                    "of mao: 0.7mm, 1mm or 2mm (the paper's) instead of the experiment's 0.36 mm");
-  verb->add_option(
-      "--seed", options->seeds,
-      "of mao: make this one alone, and keep what the files in the folder tell of others; may be repeated");
+  verb->add_option("--only", options->runs,
+                   "of mao and mao-study: make the run of this number (its seed, its variant) alone and keep what the "
+                   "files in the folder tell of others; may be repeated");
   verb->add_flag("--json", options->json, "print the numbers as JSON");
   verb->callback([options, &chosen] {
     chosen = [options] {
       if (!options->grain.empty() && options->grain != "0.36mm") options->name += "-" + options->grain;
       std::vector<std::string> names;
       for (const validate::Case& c : validate::cases()) {
-        if (options->name == c.name) return validate_one(c, options->folder, options->seeds, options->json);
+        if (options->name == c.name) return validate_one(c, options->folder, options->runs, options->json);
         names.emplace_back(c.name);
       }
       if (!options->name.empty())

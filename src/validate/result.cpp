@@ -16,6 +16,7 @@
 #include "validate/duct.hpp"
 #include "validate/grains.hpp"
 #include "validate/mao.hpp"
+#include "validate/mao_study.hpp"
 #include "validate/oner.hpp"
 #include "validate/step.hpp"
 
@@ -30,10 +31,10 @@ std::string hash(const std::string& text) {
   return fmt::format("{:016x}", h);
 }
 
-/// A case of several seeds, all of them.
-template <Result (*seeds)(const Seeds&, const Tell&)>
+/// A case of several runs, all of them.
+template <Result (*some)(const Only&, const Tell&)>
 Result all_of(const Tell& tell) {
-  return seeds({}, tell);
+  return some({}, tell);
 }
 
 }  // namespace
@@ -58,6 +59,9 @@ const std::vector<Case>& cases() {
       {"mao-2mm-livebed", "the same with grains of 2 mm: cases/mao, not the paper's model", all_of<mao_2mm>, mao_2mm},
       {"mao-2mm", "the same with the paper's grains of 2 mm, time scaled: Figures 11 and 12", all_of<mao_paper>,
        mao_paper},
+      {"mao-study",
+       "the same with grains of 0.7 mm, one thing changed at a time: grid, steps, parts of the model; hours",
+       all_of<mao_study>, mao_study},
       {"design-chart", "live-bed scour over gap and Shields number: depth and time scale against formulas; hours",
        design_chart},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -39,16 +40,18 @@ struct Result {
 /// Called with a line about progress now and then.
 using Tell = std::function<void(const std::string&)>;
 
-/// Which seeds of a case to make; none: all.  What the case's files in `folder` tell of others is kept.
-struct Seeds {
-  std::vector<unsigned> made{};
+/// Which of a case's numbered runs to make; none: all.  What the case's files in `folder` tell of others is kept.
+struct Only {
+  std::vector<unsigned> runs{};
   std::filesystem::path folder{};
+
+  bool makes(unsigned run) const { return runs.empty() || std::count(runs.begin(), runs.end(), run) > 0; }
 };
 
 struct Case {
   std::string_view name, says;
   Result (*run)(const Tell& tell);
-  Result (*run_seeds)(const Seeds& seeds, const Tell& tell) = nullptr;  ///< null where it has none to choose from
+  Result (*run_some)(const Only& only, const Tell& tell) = nullptr;  ///< null where there is nothing to choose from
 };
 
 /// Everything that can be validated, in the order in which a list shows it.

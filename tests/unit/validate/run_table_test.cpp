@@ -1,4 +1,4 @@
-#include "validate/seed_table.hpp"
+#include "validate/run_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,18 +9,18 @@ using namespace livebed::validate;
 
 namespace {
 
-SeedTable table() { return {"depths", "seed,t_s,S_over_D"}; }
+RunTable table() { return {"depths", "seed,t_s,S_over_D"}; }
 
 }  // namespace
 
-TEST(seed_table, keeps_other_seeds_of_a_file_and_replaces_its_own) {
-  SeedTable first = table();
+TEST(run_table, keeps_other_runs_of_a_file_and_replaces_its_own) {
+  RunTable first = table();
   first.add(3, "commit c", "3,0,0.1\n3,1,0.2\n");
   first.add(1, "commit a", "1,0,0.3\n");
   const std::string file = first.text();
   EXPECT_EQ(file, "# depths\n# seed 1: commit a\n# seed 3: commit c\nseed,t_s,S_over_D\n1,0,0.3\n3,0,0.1\n3,1,0.2\n");
 
-  SeedTable second = table();
+  RunTable second = table();
   second.add(2, "commit b", "2,0,0.4\n");
   second.add(3, "commit d", "3,0,0.5\n");
   second.keep(file, "a file");
@@ -30,7 +30,7 @@ TEST(seed_table, keeps_other_seeds_of_a_file_and_replaces_its_own) {
             "2,0,0.4\n3,0,0.5\n");
 }
 
-TEST(seed_table, names_the_line_that_is_wrong) {
+TEST(run_table, names_the_line_that_is_wrong) {
   const auto why = [](const char* file) {
     try {
       table().keep(file, "file.csv");
