@@ -11,9 +11,11 @@
 #include "case/expected.hpp"
 #include "case/read.hpp"
 #include "case/resolved.hpp"
+#include "io/table.hpp"
 #include "run/execute.hpp"
 #include "validate/picture.hpp"
 #include "validate/references.hpp"
+#include "validate/run_table.hpp"
 #include "validate/scour_runs.hpp"
 
 namespace livebed::validate {
@@ -24,16 +26,18 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double scatter = 0.2;           ///< of experiments in S/D, one standard deviation (Sumer and Fredsoe 2002)
 constexpr double length_over_T = 6;       ///< of a run
 constexpr double rise_over_T = 4 / 11.5;  ///< of the current, as in cases/mao
-constexpr int seeds = 2;
+constexpr unsigned seeds = 2;
+constexpr const char* exponent_row = "exponent";
 const std::vector<double> gaps = {0, 0.1, 0.3, 0.5, 1.0};          ///< e/D, at theta_of_gaps
 const std::vector<double> currents = {0.1, 0.2, 0.33, 0.45, 0.6};  ///< theta, at e/D = 0
 constexpr double theta_of_gaps = 0.33;
 const std::vector<std::string> colours = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e"};
 
-/// A run and what a chart takes from it.
+/// What a chart takes from a run.
 struct Point {
-  Scour run;
+  unsigned number = 0, seed = 0;  ///< of the run
   double gap = 0, theta = 0;
+  double end = 0;         ///< of it over T
   double T = 0;           ///< by the formula [s]
   double S = 0;           ///< S/D, mean of the last 2 T
   double change = 0;      ///< of it from the first to the second of them
@@ -61,14 +65,14 @@ casefile::Case case_of(double gap, double theta, unsigned seed) {
   return casefile::read_text(mao_case, "design-chart", keys);
 }
 
-Point point_of(Scour run, double gap, double theta) {
-  Point p;
-  p.gap = gap, p.theta = theta, p.T = run.resolved.time_scale;
+Point point_of(const Scour& run, unsigned number, double gap, double theta) {
+  Point p{number, run.seed, gap, theta};
+  p.T = run.resolved.time_scale;
   const double end = run.t.back();
+  p.end = end / p.T;
   p.S = mean_depth(run, end - 2 * p.T, end);
   p.change = mean_depth(run, end - p.T, end) - mean_depth(run, end - 2 * p.T, end - p.T);
   if (const auto fit = base::fit_approach(run.t, run.depth)) p.fitted_T = fit->T;
-  p.run = std::move(run);
   return p;
 }
 
@@ -84,25 +88,34 @@ double exponent_of_time(const std::vector<Point>& points) {
   return n > 2 && spread > 0 ? (n * xy - x * y) / spread : nan;
 }
 
-std::string table_of(const std::vector<Point>& points) {
-  std::string text =
-      "# live-bed scour under a pipe of 5 cm, grains of 2 mm; S/D: mean of the last 2 T; T by the formula of Fredsoe, "
-      "Sumer and Arnskov (1992); T_fit: of S_eq (1 - exp(-t/T))\n"
-      "e_over_D,theta,seed,commit,case,end_over_T,S_over_D,change_over_D,T_s,T_fit_s\n";
-  for (const Point& p : points)
-    text +=
-        fmt::format("{},{},{},{},{},{:.3g},{:.4f},{:+.4f},{:.4g},{:.4g}\n", p.gap, p.theta, p.run.seed, p.run.commit,
-                    casefile::hash(p.run.resolved), p.run.t.back() / p.T, p.S, p.change, p.T, p.fitted_T);
-  return text;
-}
+/// Points and courses of all runs, as they are in the files.
+struct Tables {
+  RunTable points{
+      "live-bed scour under a pipe of 5 cm, grains of 2 mm; S/D: mean of the last 2 T; T by the formula of "
+      "Fredsoe, Sumer and Arnskov (1992); T_fit: of S_eq (1 - exp(-t/T))",
+      "run,e_over_D,theta,seed,end_over_T,S_over_D,change_over_D,T_s,T_fit_s"};
+  RunTable courses{"S/D in time, means of a twentieth of T", "run,e_over_D,theta,seed,t_over_T,S_over_D"};
 
-std::string course_of(const std::vector<Point>& points) {
-  std::string text = "# S/D in time, means of a twentieth of T\ne_over_D,theta,seed,t_over_T,S_over_D\n";
-  for (const Point& p : points)
-    for (double t = 0; t <= p.run.t.back(); t += 0.05 * p.T)
-      text += fmt::format("{},{},{},{:.2f},{:.4f}\n", p.gap, p.theta, p.run.seed, t / p.T,
-                          mean_depth(p.run, t - 0.025 * p.T, t + 0.025 * p.T));
-  return text;
+  void add(const Point& p, const Scour& run) {
+    points.add(p.number, run_told(run),
+               fmt::format("{},{},{},{},{:.3g},{:.4f},{:+.4f},{:.4g},{:.4g}\n", p.number, p.gap, p.theta, p.seed, p.end,
+                           p.S, p.change, p.T, p.fitted_T));
+    std::string course;
+    for (double t = 0; t <= run.t.back(); t += 0.05 * p.T)
+      course += fmt::format("{},{},{},{},{:.2f},{:.4f}\n", p.number, p.gap, p.theta, p.seed, t / p.T,
+                            mean_depth(run, t - 0.025 * p.T, t + 0.025 * p.T));
+    courses.add(p.number, run_told(run), std::move(course));
+  }
+};
+
+std::vector<Point> points_of(const io::Table& t) {
+  std::vector<Point> points;
+  for (std::size_t n = 0; n < t.rows(); ++n) {
+    const auto at = [&](const char* column) { return t.column(column)[n]; };
+    points.push_back({static_cast<unsigned>(at("run")), static_cast<unsigned>(at("seed")), at("e_over_D"), at("theta"),
+                      at("end_over_T"), at("T_s"), at("S_over_D"), at("change_over_D"), at("T_fit_s")});
+  }
+  return points;
 }
 
 /// Steps from `from` to `to`.
@@ -127,12 +140,12 @@ void add_points(report::Chart& chart, const std::vector<Point>& points, const st
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     report::Curve dots{fmt::format("Livebed, seed {}", seed), colours[seed - 1], {}, {}, true};
     for (std::size_t n = 0; n < points.size(); ++n)
-      if (points[n].run.seed == seed) dots.x.push_back(x[n]), dots.y.push_back(y[n]);
+      if (points[n].seed == seed) dots.x.push_back(x[n]), dots.y.push_back(y[n]);
     chart.curves.push_back(std::move(dots));
   }
 }
 
-std::string figure_of(const std::vector<Point>& all) {
+std::string figure_of(const std::vector<Point>& all, const io::Table& courses) {
   std::vector<Point> by_gap, by_current;
   for (const Point& p : all) {
     if (p.theta == theta_of_gaps) by_gap.push_back(p);
@@ -164,10 +177,14 @@ std::string figure_of(const std::vector<Point>& all) {
   course.curves.push_back({"0.6 (1 - exp(-t/T))", "#000000", line(0, length_over_T), {}});
   for (double t : course.curves.front().x) course.curves.front().y.push_back(0.6 * (1 - std::exp(-t)));
   for (const Point& p : by_current) {
-    if (p.run.seed != 1) continue;
+    if (p.seed != 1) continue;
     const auto n = std::find(currents.begin(), currents.end(), p.theta) - currents.begin();
-    report::Curve curve{fmt::format("theta {}", p.theta), colours[n], {}, p.run.depth};
-    for (double t : p.run.t) curve.x.push_back(t / p.T);
+    report::Curve curve{fmt::format("theta {}", p.theta), colours[n], {}, {}};
+    for (std::size_t k = 0; k < courses.rows(); ++k)
+      if (courses.column("run")[k] == p.number) {
+        curve.x.push_back(courses.column("t_over_T")[k]);
+        curve.y.push_back(courses.column("S_over_D")[k]);
+      }
     course.curves.push_back(std::move(curve));
   }
   return panels({{"depth over gap, theta 0.33", gap_chart},
@@ -179,51 +196,73 @@ std::string figure_of(const std::vector<Point>& all) {
 
 }  // namespace
 
-Result design_chart(const Tell& tell) {
+Result design_chart(const Only& only, const Tell& tell) {
+  struct Wanted {
+    unsigned seed;
+    double gap, theta;
+    std::string label() const { return fmt::format("e/D {}, theta {}, seed {}", gap, theta, seed); }
+  };
+  std::vector<Wanted> runs;  // numbered from 1 on
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    for (double gap : gaps) runs.push_back({seed, gap, theta_of_gaps});
+    for (double theta : currents)
+      if (theta != theta_of_gaps) runs.push_back({seed, 0, theta});
+  }
+  for (unsigned number : only.runs)
+    if (number < 1 || number > runs.size())
+      base::fail(base::Exit::command_line, "design-chart has no run {}; its runs are 1 to {}", number, runs.size());
   run::obey_signals();
   Result result;
-  std::vector<Point> points;
-  for (unsigned seed = 1; seed <= seeds; ++seed) {
-    const auto take = [&](double gap, double theta) {
-      const std::string folder = fmt::format("{}/e{}-theta{}-seed{}", kept_chart, gap, theta, seed);
-      if (auto run = scour(case_of(gap, theta, seed), folder, tell))
-        points.push_back(point_of(std::move(*run), gap, theta));
-      else if (run::stop_signal() == 0)
-        result.rows.push_back(missing(fmt::format("e/D {}, theta {}, seed {}", gap, theta, seed)));
-    };
-    for (double gap : gaps) take(gap, theta_of_gaps);
-    for (double theta : currents)
-      if (theta != theta_of_gaps) take(0, theta);
+  Tables tables;
+  if (!only.runs.empty()) {
+    std::vector<std::string> labels = {exponent_row};
+    for (unsigned number : only.runs) labels.push_back(runs[number - 1].label());
+    keep_rows(only.folder / "design-chart.json", labels, result);
   }
-  if (points.empty()) base::fail(base::Exit::signal, "stopped before the grains of any run were let go");
-
-  for (const Point& p : points) {
-    const std::string name = fmt::format("e/D {}, theta {}, seed {}: ", p.gap, p.theta, p.run.seed);
+  bool any = false;
+  for (unsigned number = 1; number <= runs.size(); ++number) {
+    if (!only.makes(number)) continue;
+    const auto& [seed, gap, theta] = runs[number - 1];
+    const std::string folder = fmt::format("{}/e{}-theta{}-seed{}", kept_chart, gap, theta, seed);
+    const auto run = scour(case_of(gap, theta, seed), folder, tell);
+    if (!run) {
+      if (run::stop_signal() == 0) result.rows.push_back(missing(runs[number - 1].label()));
+      continue;
+    }
+    any = true;
+    const Point p = point_of(*run, number, gap, theta);
+    tables.add(p, *run);
     const auto add = [&](const std::string& what, double value, const std::string& unit, double low, double high,
                          const std::string& reference) {
-      Row row{name + what, value, unit};
+      Row row{fmt::format("{}: {}", runs[number - 1].label(), what), value, unit};
       row.low = low, row.high = high, row.reference = reference;
-      row.setup = fmt::format("case {}, {:.2f} T", casefile::hash(p.run.resolved), p.run.t.back() / p.T);
-      row.seconds = p.run.wall, row.commit = p.run.commit;
+      row.setup = fmt::format("case {}, {:.2f} T", casefile::hash(run->resolved), p.end);
+      row.seconds = run->wall, row.commit = run->commit;
       tell(fmt::format("{}: {:.4g} {}", row.name, value, unit));
       result.rows.push_back(row);
     };
-    const base::EquilibriumDepth wanted = *base::equilibrium_depth(p.gap);
+    const base::EquilibriumDepth wanted = *base::equilibrium_depth(gap);
     // Judged only where the run has come to its end; the scatter is that of experiments where the pipe touches.
-    const bool ended = p.run.t.back() > 0.99 * length_over_T * p.T;
+    const bool ended = p.end > 0.99 * length_over_T;
     add("S/D over the last 2 T", p.S, "-", ended ? wanted.over_D - scatter : nan, ended ? wanted.over_D + scatter : nan,
         fmt::format("{} ({})", wanted.formula, wanted.source));
     add("change within them", p.change, "-", nan, nan, "");
     add("fitted T over the formula's", p.fitted_T / p.T, "-", nan, nan, "Fredsoe, Sumer and Arnskov (1992)");
   }
-  Row exponent{"exponent of T* over theta, e/D 0", exponent_of_time(points), "-"};
+  if (!any) base::fail(base::Exit::signal, "stopped before the grains of any run were let go");
+  if (!only.runs.empty()) {
+    tables.points.keep(only.folder / "design-chart.csv");
+    tables.courses.keep(only.folder / "design-chart-course.csv");
+  }
+  const std::string table = tables.points.text(), course = tables.courses.text();
+  const std::vector<Point> points = points_of(io::parse_table(table, "design-chart.csv"));
+  Row exponent{fmt::format("{}: T* over theta, e/D 0", exponent_row), exponent_of_time(points), "-"};
   exponent.reference = "-5/3: Fredsoe, Sumer and Arnskov (1992)";
-  exponent.commit = points.front().run.commit;
   tell(fmt::format("{}: {:.3g}", exponent.name, exponent.value));
   result.rows.push_back(exponent);
-  result.pictures = {{"design-chart.svg", figure_of(points)},
-                     {"design-chart.csv", table_of(points)},
-                     {"design-chart-course.csv", course_of(points)}};
+  result.pictures = {{"design-chart.svg", figure_of(points, io::parse_table(course, "design-chart-course.csv"))},
+                     {"design-chart.csv", table},
+                     {"design-chart-course.csv", course}};
   return result;
 }
 

@@ -9,7 +9,6 @@
 #include "base/math.hpp"
 #include "case/read.hpp"
 #include "case/resolved.hpp"
-#include "io/file.hpp"
 #include "io/table.hpp"
 #include "report/references.hpp"
 #include "run/execute.hpp"
@@ -132,21 +131,6 @@ std::vector<Picture> draw(const Experiment& e, const Tables& tables, double unit
           {e.name + "-profiles.csv", lines}};
 }
 
-/// The rows of runs that are not made now, as the file in the folder has them.
-void keep_rows(const Experiment& e, const Only& only, Result& result) {
-  const std::filesystem::path file = only.folder / (e.name + ".json");
-  if (!std::filesystem::exists(file)) return;
-  for (Row& row : rows_of_json(io::read_file(file), file.string()))
-    if (std::none_of(e.runs.begin(), e.runs.end(), [&](const MaoRun& run) {
-          return only.makes(run.number) && row.name.starts_with(run.label + ": ");
-        }))
-      result.rows.push_back(std::move(row));
-}
-
-void keep_table(const std::filesystem::path& file, RunTable& table) {
-  if (std::filesystem::exists(file)) table.keep(io::read_file(file), file.string());
-}
-
 }  // namespace
 
 const std::vector<std::string>& keys_of_07mm() {
@@ -163,7 +147,10 @@ Result hold_against_mao(const Experiment& e, const Only& only, const Tell& tell)
                  e.runs.back().number);
   run::obey_signals();
   Result result;
-  if (!only.runs.empty()) keep_rows(e, only, result);
+  std::vector<std::string> labels;
+  for (const MaoRun& run : e.runs)
+    if (only.makes(run.number)) labels.push_back(run.label);
+  if (!only.runs.empty()) keep_rows(only.folder / (e.name + ".json"), labels, result);
   std::vector<Made> all;
   for (const MaoRun& run : e.runs) {
     if (!only.makes(run.number)) continue;
@@ -230,8 +217,8 @@ Result hold_against_mao(const Experiment& e, const Only& only, const Tell& tell)
                        e.column + ",t_s,x_D,y_bed_D"}};
   for (const Made& made : all) add_to_tables(made, unit, tables);
   if (!only.runs.empty()) {
-    keep_table(only.folder / (e.name + "-depth.csv"), tables.depths);
-    keep_table(only.folder / (e.name + "-profiles.csv"), tables.lines);
+    tables.depths.keep(only.folder / (e.name + "-depth.csv"));
+    tables.lines.keep(only.folder / (e.name + "-profiles.csv"));
   }
   result.pictures = draw(e, tables, unit);
   return result;

@@ -8,6 +8,7 @@
 
 #include "base/fault.hpp"
 #include "base/version.hpp"
+#include "io/file.hpp"
 #include "validate/bedload.hpp"
 #include "validate/cavity.hpp"
 #include "validate/channel.hpp"
@@ -63,7 +64,7 @@ const std::vector<Case>& cases() {
        "the same with grains of 0.7 mm, one thing changed at a time: grid, steps, parts of the model; hours",
        all_of<mao_study>, mao_study},
       {"design-chart", "live-bed scour over gap and Shields number: depth and time scale against formulas; hours",
-       design_chart},
+       all_of<design_chart>, design_chart},
       {"oner", "current past a pipe near the bed, 540 x 94 cells: the paper's Figures 3-8, each closure and gap", oner},
       {"oner-layer", "a laminar boundary layer on the pipe beside a turbulent one", oner_layer},
       {"oner-depth", "what sets its Strouhal number: depth, approach profile, scheme, grid", oner_depth},
@@ -110,6 +111,14 @@ std::vector<Row> rows_of_json(const std::string& text, const std::string& source
   } catch (const nlohmann::json::exception& e) {
     base::fail(base::Exit::input_output, "{} is no list of results of `livebed validate`: {}", source, e.what());
   }
+}
+
+void keep_rows(const std::filesystem::path& file, const std::vector<std::string>& but, Result& result) {
+  if (!std::filesystem::exists(file)) return;
+  for (Row& row : rows_of_json(io::read_file(file), file.string()))
+    if (std::none_of(but.begin(), but.end(),
+                     [&](const std::string& label) { return row.name.starts_with(label + ": "); }))
+      result.rows.push_back(std::move(row));
 }
 
 }  // namespace livebed::validate

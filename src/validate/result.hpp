@@ -61,5 +61,7 @@ const std::vector<Case>& cases();
 std::string to_json(const Result& result);
 /// The rows of such a list.  Fault (input/output) with the source's name when it is none.
 std::vector<Row> rows_of_json(const std::string& text, const std::string& source);
+/// Adds the rows of such a file, if there is one, but for those of runs with these labels ("LABEL: ...").
+void keep_rows(const std::filesystem::path& file, const std::vector<std::string>& but, Result& result);
 
 }  // namespace livebed::validate

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/fault.hpp"
+#include "io/file.hpp"
 
 namespace livebed::validate {
 
@@ -43,6 +44,10 @@ void RunTable::keep(std::string_view file, const std::string& source) {
     }
   }
   for (auto& [run, lines] : read) runs_.try_emplace(run, std::move(lines));
+}
+
+void RunTable::keep(const std::filesystem::path& file) {
+  if (std::filesystem::exists(file)) keep(io::read_file(file), file.string());
 }
 
 std::string RunTable::text() const {

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@ public:
   void add(unsigned run, std::string made, std::string rows) { runs_[run] = {std::move(made), std::move(rows)}; }
   /// Takes over the runs of a file that are not here yet.  Fault (input/output) when it is not a file of this kind.
   void keep(std::string_view file, const std::string& source);
+  /// The same where there is such a file.
+  void keep(const std::filesystem::path& file);
   bool has(unsigned run) const { return runs_.contains(run); }
 
   std::string text() const;
