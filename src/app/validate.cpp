@@ -51,9 +51,10 @@ void add_validate(CLI::App& app, Action& chosen) {
   verb->add_option("--out", options->folder, "folder for NAME.json and its figures")->capture_default_str();
   verb->add_option("--grain", options->grain,
                    "of mao: 0.7mm, 1mm or 2mm (the paper's) instead of the experiment's 0.36 mm");
-  verb->add_option("--only", options->runs,
-                   "of mao, mao-study and design-chart: make the run of this number (its seed, its variant) alone and keep what the "
-                   "files in the folder tell of others; may be repeated");
+  verb->add_option(
+      "--only", options->runs,
+      "of mao, mao-study and design-chart: make the run of this number (its seed, its variant) alone and keep what the "
+      "files in the folder tell of others; may be repeated");
   verb->add_flag("--json", options->json, "print the numbers as JSON");
   verb->callback([options, &chosen] {
     chosen = [options] {
