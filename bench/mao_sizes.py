@@ -15,7 +15,7 @@ import pathlib
 import statistics
 
 SIZES = [("mao", 0.36), ("mao-0.7mm", 0.7), ("mao-1mm", 1.0), ("mao-2mm-livebed", 2.0)]  # [mm]
-WINDOWS = [(0.5, 1.5), (1.5, 2.5), (3.5, 4.5), (7, 9), (11, 13), (16.5, 19.5), (23.5, 26.5), (30, 37)]  # of Mao's clock [s]
+WINDOWS = [(0.5, 1.5), (1.5, 2.5), (3.5, 4.5), (7, 9), (10, 12), (16.5, 19.5), (23.5, 26.5), (30, 37)]  # of Mao's clock [s]
 DATA = pathlib.Path(__file__).parent.parent / "data"
 COLOURS = ["#000000", "#1f77b4", "#2ca02c", "#d62728"]
 
@@ -75,7 +75,7 @@ def figure(path, runs):
             depth.plot(*zip(*points[::5]), color=colour, lw=0.8, label=f"{of.d:g} mm" if n == 0 else None)
     depth.set(xlabel="t, scaled by T [s]", ylabel="S/D", xlim=(0, 40), ylim=(0, 1))
     depth.legend()
-    for window, marker in [((11, 13), "o"), ((23.5, 26.5), "s"), ((30, 37), "^")]:
+    for window, marker in [((10, 12), "o"), ((23.5, 26.5), "s"), ((30, 37), "^")]:
         sizes = [(of.d, value) for of in runs for value in of.mean(window)]
         middle = sum(window) / 2
         line, = size.plot(*zip(*sizes), marker, fillstyle="none", label=f"{window[0]:g} to {window[1]:g} s")
