@@ -98,7 +98,7 @@ struct Tables {
 
   void add(const Point& p, const Scour& run) {
     points.add(p.number, run_told(run),
-               fmt::format("{},{},{},{},{:.3g},{:.4f},{:+.4f},{:.4g},{:.4g}\n", p.number, p.gap, p.theta, p.seed, p.end,
+               fmt::format("{},{},{},{},{:.3g},{:.4f},{:.4f},{:.4g},{:.4g}\n", p.number, p.gap, p.theta, p.seed, p.end,
                            p.S, p.change, p.T, p.fitted_T));
     std::string course;
     for (double t = 0; t <= run.t.back(); t += 0.05 * p.T)
