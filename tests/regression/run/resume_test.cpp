@@ -34,8 +34,8 @@ TEST_F(Resume, from_many_stops_on_changing_threads_gives_the_unbroken_run) {
 
 TEST_F(Resume, after_ctrl_c_gives_the_unbroken_run) {
   const std::string preset = " --set preset=livebed --set pipe.boundary_layer=laminar";
-  ASSERT_EQ(run("--threads 2 " + small_run("0.3", "whole" + preset)).exit, ok);
-  ASSERT_EQ(run(one + small_run("0.3", "parts --wall-limit 1e-6" + preset)).exit, stopped_by_limit);
+  ASSERT_EQ(run("--threads 2 " + small_run("0.15", "whole" + preset)).exit, ok);
+  ASSERT_EQ(run(one + small_run("0.15", "parts --wall-limit 1e-6" + preset)).exit, stopped_by_limit);
   const pid_t child = start({"--threads", "1", "resume", "parts", "--quiet"});
   // As soon as there is a row, the grains are moving.
   const auto lines = [&] {
@@ -50,7 +50,7 @@ TEST_F(Resume, after_ctrl_c_gives_the_unbroken_run) {
   EXPECT_EQ(WEXITSTATUS(status), 128 + SIGINT);
   const std::string last = content(*this / "parts/log.txt");
   expect_contains(last, {"stopped by a signal"});
-  EXPECT_LT(io::read_table(*this / "parts/series.csv").column("time_s").back(), 0.29);
+  EXPECT_LT(io::read_table(*this / "parts/series.csv").column("time_s").back(), 0.14);
   ASSERT_EQ(run(one + "resume parts --quiet").exit, ok);
   expect_same_run(*this / "whole", *this / "parts");
 }
@@ -64,9 +64,9 @@ TEST_F(Resume, with_sand_that_leaves_and_enters_gives_the_unbroken_run) {
            " --set output.checkpoint_every=0.1 --set time.end=" +
            end + " --out " + out;
   };
-  ASSERT_EQ(run("--threads 2 " + live("0.4", "whole")).exit, ok);
-  ASSERT_EQ(run(one + live("0.25", "parts")).exit, ok);
-  ASSERT_EQ(run(one + "resume parts --quiet --until 0.4").exit, ok);
+  ASSERT_EQ(run("--threads 2 " + live("0.2", "whole")).exit, ok);
+  ASSERT_EQ(run(one + live("0.13", "parts")).exit, ok);
+  ASSERT_EQ(run(one + "resume parts --quiet --until 0.2").exit, ok);
   const std::string summary = content(*this / "whole/summary.json");
   expect_contains(summary, {"\"supply\"", "\"entered\""});
   EXPECT_EQ(summary.find("\"entered\": 0,"), std::string::npos) << summary;
