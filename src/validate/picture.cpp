@@ -1,6 +1,7 @@
 #include "validate/picture.hpp"
 
 #include <fmt/format.h>
+#include <set>
 
 namespace livebed::validate {
 
@@ -25,16 +26,28 @@ Element element(const report::Chart& chart) {
   return e;
 }
 
-/// Entries one below the other from y on; y <- below them.
-std::string legend(const report::Chart& chart, int& y) {
+/// What the curves and bands of the charts are called, each once, one below the other from y on; y <- below them.
+std::string legend(const std::vector<const report::Chart*>& charts, int& y) {
   std::string out;
-  for (const report::Curve& curve : chart.curves) {
-    if (curve.name.empty()) continue;
+  std::set<std::pair<std::string, std::string>> listed;
+  const auto list = [&](const std::string& name, const std::string& colour, auto&& sign) {
+    if (name.empty() || !listed.emplace(name, colour).second) return;
     y += line;
-    out += curve.dots ? fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"4\" fill=\"{}\"/>", left + 11, y - 4, curve.colour)
-                      : fmt::format("<path d=\"M{} {}h22\" stroke=\"{}\" stroke-width=\"2\"{}/>", left, y - 4,
-                                    curve.colour, curve.dashed ? " stroke-dasharray=\"5 4\"" : "");
-    out += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>", left + 30, y, report::escaped(curve.name));
+    out += sign() + fmt::format("<text x=\"{}\" y=\"{}\">{}</text>", left + 30, y, report::escaped(name));
+  };
+  for (const report::Chart* chart : charts) {
+    for (const report::Curve& c : chart->curves) {
+      if (c.x.empty()) continue;
+      list(c.name, c.colour, [&] {
+        return c.dots ? fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"4\" fill=\"{}\"/>", left + 11, y - 4, c.colour)
+                      : fmt::format("<path d=\"M{} {}h22\" stroke=\"{}\" stroke-width=\"2\"{}/>", left, y - 4, c.colour,
+                                    c.dashed ? " stroke-dasharray=\"5 4\"" : "");
+      });
+    }
+    for (const report::Band& b : chart->bands)
+      list(b.name, b.colour, [&] {
+        return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"22\" height=\"10\" fill=\"{}\"/>", left, y - 9, b.colour);
+      });
   }
   return out;
 }
@@ -53,7 +66,7 @@ std::string page(int width, int height, const std::string& inner) {
 std::string picture(const report::Chart& chart) {
   const Element e = element(chart);
   int y = e.height;
-  const std::string entries = legend(chart, y);
+  const std::string entries = legend({&chart}, y);
   return page(e.width, y + line, e.svg + entries);
 }
 
@@ -71,7 +84,9 @@ std::string panels(const std::vector<Panel>& all, int columns) {
     ++column;
   }
   y += row_height;
-  inner += legend(all.front().chart, y);
+  std::vector<const report::Chart*> charts;
+  for (const Panel& panel : all) charts.push_back(&panel.chart);
+  inner += legend(charts, y);
   return page(width, y + line, inner);
 }
 

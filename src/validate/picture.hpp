@@ -14,7 +14,7 @@ struct Panel {
   report::Chart chart;
 };
 
-/// Charts of one size in rows of `columns`, each under its title, with the legend of the first below them.
+/// Charts of one size in rows of `columns`, each under its title, with one legend for all below them.
 std::string panels(const std::vector<Panel>& all, int columns);
 
 }  // namespace livebed::validate
