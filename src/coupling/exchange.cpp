@@ -104,7 +104,8 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
   for (int j = 0; j < ny_; ++j)
     for (int i = 0; i < nx_; ++i) volume_c_(i, j) = slab_ * centres.volume(i, j);
   gusts_ = Gusts(nx_, ny_);
-  for (Field* f : {&voids_, &packed_, &slope_u_, &slope_v_, &rate_u_, &rate_v_, &curl_, &still_solid_, &still_beta_u_,
+  room_ = EddyRoom(nx_, ny_, params.room_power, slab_);
+  for (Field* f : {&voids_, &slope_u_, &slope_v_, &rate_u_, &rate_v_, &curl_, &still_solid_, &still_beta_u_,
                    &still_beta_v_, &still_damping_})
     *f = Field(nx_, ny_);
 }
@@ -275,7 +276,7 @@ void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt)
   };
   const bool attached = params_.dispersion == Dispersion::attached;
   if (attached) {
-    gusts_.fill(flow.mesh(), s, packed_, top_, params_.dispersion_time, viscosity_);
+    gusts_.fill(flow.mesh(), s, room_.packed, top_, params_.dispersion_time, viscosity_);
     at_c_.gather(std::array<const Field*, 2>{&gusts_.k, &gusts_.time}, {&gust_k_, &gust_time_});
     slopes_of(gusts_.k);
     at_u_.gather(slope_u_, gust_slope_x_);
@@ -325,7 +326,7 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   top_ = rows_with_grains(g);
   const bool damped = params_.turbulence == Turbulence::damped, bounded = params_.turbulence != Turbulence::untouched,
              walks = params_.dispersion != Dispersion::none;
-  if (bounded || params_.dispersion == Dispersion::attached) average_solid(flow.mesh());
+  if (bounded || params_.dispersion == Dispersion::attached) room_.average(flow.mesh(), voids_, top_);
   if (damped || walks) at_c_.gather(std::array<const Field*, 2>{&s.k, &s.epsilon}, {&eddy_k_, &eddy_epsilon_});
   if (walks && !held) {
     feel_eddies(g, flow, dt);
@@ -379,7 +380,7 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   per_volume(flow.at_u(), owed_u_, still_beta_u_, load.beta_u, load.force_u);
   per_volume(flow.at_v(), owed_v_, still_beta_v_, load.beta_v, load.force_v);
   if (!bounded) return;
-  bound_eddies(flow.mesh(), load);
+  room_.fill(flow.mesh(), top_, load.room);
   if (damped) load_eddies(g, load);
   for_each_item(0, load.top, [&](int j) {
     const Volumes v(flow.at_c(), j, slab_ * density_);
@@ -387,52 +388,6 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
     if (uniform_) level(rate, 0, nx_);
     vector_loop(0, nx_, [&](int i) { rate[i] = v[i] > 0 ? rate[i] / v[i] : 0.0; });
   });
-}
-
-void Coupler::average_solid(const flow::Mesh& m) {
-  const double reach = averaged_over * slab_;
-  for_each_item(0, top_, [&](int j) {
-    double* mean = packed_.row(j);
-    double volume = 0, length = 0;
-    for (int i = 0, first = 0, next = 0; i < nx_; ++i) {
-      const double here = m.centre_x(i);
-      for (; next <= i || (next < nx_ && m.centre_x(next) <= here + reach); ++next)
-        volume += (1.0 - voids_(next, j)) * m.dx(next), length += m.dx(next);
-      for (; first < i && m.centre_x(first) < here - reach; ++first)
-        volume -= (1.0 - voids_(first, j)) * m.dx(first), length -= m.dx(first);
-      mean[i] = volume / length / packed_solid;
-    }
-  });
-}
-
-void Coupler::bound_eddies(const flow::Mesh& m, flow::Load& load) {
-  // Shortest way through the cells, each step counting as much as it is free of grains: down to the packed bed from
-  // the west and from below, then from the east and from above.
-  Field& way = slope_u_;
-  const auto counts = [&](double share) {
-    if (share <= 0 || share >= 1) return share <= 0 ? 1.0 : 0.0;
-    return std::pow(1.0 - share, params_.room_power);
-  };
-  const auto step = [&](double& here, int i, int j, int from_i, int from_j, double length) {
-    const double mean = 0.5 * (packed_(i, j) + packed_(from_i, from_j));
-    here = std::min(here, way(from_i, from_j) + length * counts(mean));
-  };
-  const double far = m.height();
-  for (int j = 0; j < top_; ++j)
-    for (int i = 0; i < nx_; ++i) {
-      double here = packed_(i, j) > packed_share ? 0.0 : far;
-      if (here > 0 && j > 0) step(here, i, j, i, j - 1, m.dy_face(j));
-      if (here > 0 && i > 0) step(here, i, j, i - 1, j, m.dx_face(i));
-      way(i, j) = here;
-    }
-  const double least = room_least * slab_;
-  for (int j = top_ - 1; j >= 0; --j)
-    for (int i = nx_ - 1; i >= 0; --i) {
-      double& here = way(i, j);
-      if (here > 0 && j + 1 < top_) step(here, i, j, i, j + 1, m.dy_face(j + 1));
-      if (here > 0 && i + 1 < nx_) step(here, i, j, i + 1, j, m.dx_face(i + 1));
-      load.room(i, j) = std::max(here, least);
-    }
 }
 
 void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) {

@@ -6,6 +6,7 @@
 #include "coupling/eddies.hpp"
 #include "coupling/gusts.hpp"
 #include "coupling/params.hpp"
+#include "coupling/room.hpp"
 #include "coupling/transfer.hpp"
 #include "flow/advance.hpp"
 #include "grains/state.hpp"
@@ -26,8 +27,6 @@ inline constexpr double share_passed = 0.5;
 /// Largest step of the flow over the response time of any grain [-].
 inline constexpr double step_over_response = 1;
 
-/// The bed counts as packed, and its water as unmixed, from this share of the packed solid fraction on [-].
-inline constexpr double packed_solid = 0.55, packed_share = 0.9;
 /// A face with less opening than this passes no pressure gradient on to grains [-]: the pressure in a sliver of a cell
 /// is whatever stops the little that flows there.
 inline constexpr double sliver = 0.05;
@@ -35,10 +34,6 @@ inline constexpr double sliver = 0.05;
 /// than this [d], where nothing but the pressure changes, every so many rounds.
 inline constexpr int steps_a_round = 64, rounds_of_the_deep = 8;
 inline constexpr double surface_depth = 10;
-/// Half the length along the current over which the solid fraction that bounds the eddies is averaged, over d [-].  A
-/// grain that flies alone fills its cell and would count as a bed.
-inline constexpr double averaged_over = 3;
-inline constexpr double room_least = 0.02;  ///< of the packed bed over d; keeps its dissipation finite
 
 /// Sums of all impulses since the release [N s]; in the slab of thickness b.  The force of the pressure gradient is not
 /// among them: the water's own equation holds its counterpart.
@@ -142,13 +137,6 @@ private:
   double given_to_still(const base::Field& beta, const base::Field& velocity, double dt) const;
   /// Velocity of the water and fluctuation at each grain.
   void feel_eddies(grains::State& g, const flow::Solver& flow, double dt);
-  /// packed_ <- solid fraction of each cell up to the topmost grain, averaged along the current, over that of a packed
-  /// bed.
-  void average_solid(const flow::Mesh& m);
-  /// load.room <- distance of each cell up to the topmost grain from the packed bed, ways through grains counting less
-  /// by what they fill (Li and Sawamoto 1995, Coastal Eng. Japan 38, 1: dl/dy = kappa (1 - solid/packed), here to a
-  /// power).
-  void bound_eddies(const flow::Mesh& m, flow::Load& load);
   void load_eddies(const grains::State& g, flow::Load& load);
   /// Velocity of the water at each grain, and its forces besides drag.
   void feel_water(const flow::Solver& flow, grains::State& g, double dt);
@@ -169,6 +157,7 @@ private:
   ImpulseLedger ledger_;
   Eddies eddies_;
   Gusts gusts_;
+  EddyRoom room_;
 
   // Of each grain, in the order of the storage while the flow steps:
   grains::Array voidage_;                                           ///< around it [-]
@@ -191,7 +180,6 @@ private:
 
   base::Field volume_c_;  ///< of the cells, water and grains, slab included [m3]
   base::Field voids_, slope_u_, slope_v_, rate_u_, rate_v_, curl_;
-  base::Field packed_;  ///< averaged solid fraction over that of a packed bed [-]
 };
 
 }  // namespace livebed::coupling
