@@ -25,6 +25,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double scatter = 0.2;           ///< of experiments in S/D, one standard deviation (Sumer and Fredsoe 2002)
 constexpr double length_over_T = 6;       ///< of a run
+constexpr double opened = 0.2;            ///< S/D from which on there is a tunnel whose growth has a time scale
 constexpr double rise_over_T = 4 / 11.5;  ///< of the current, as in cases/mao
 constexpr unsigned seeds = 2;
 constexpr const char* exponent_row = "exponent";
@@ -72,6 +73,7 @@ Point point_of(const Scour& run, unsigned number, double gap, double theta) {
   p.end = end / p.T;
   p.S = mean_depth(run, end - 2 * p.T, end);
   p.change = mean_depth(run, end - p.T, end) - mean_depth(run, end - 2 * p.T, end - p.T);
+  if (p.S < opened) return p;
   if (const auto fit = base::fit_approach(run.t, run.depth)) p.fitted_T = fit->T;
   return p;
 }
