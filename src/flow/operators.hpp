@@ -216,18 +216,21 @@ private:
                  *after = at.from_west.data() + 2;
     const double share_a = at.share_y_before[j + 2], share_b = at.share_y[j + 2], dt = q_.dt, nu = q_.nu;
     double* west = west_;
-    const auto run = [&](auto flux) {
+    const auto run = [&](auto flux, auto speed) {
       base::vector_loop(at.i0, at.i1 + 1, [&](int i) {
         const Stencil4 s{p[i - 2],      p[i - 1],  p[i],          p[i + 1],  hx[i],
                          per_hx[i - 1], per_hx[i], per_hx[i + 1], before[i], after[i]};
-        west[i] = flux(i) * Scheme::face(s, 0.5 * (ua[i] + ub[i]), dt, change[i - 1], change[i],
-                                         nu + 0.5 * (nut[i - 1] + nut[i]));
+        west[i] = flux(i) * Scheme::face(s, speed(i), dt, change[i - 1], change[i], nu + 0.5 * (nut[i - 1] + nut[i]));
       });
     };
     if (face_x_.is_one(j - sy) && face_x_.is_one(j))
-      run([&](int i) { return share_a * ua[i] + share_b * ub[i]; });
+      run([&](int i) { return share_a * ua[i] + share_b * ub[i]; }, [&](int i) { return 0.5 * (ua[i] + ub[i]); });
     else
-      run([&](int i) { return share_a * ua[i] * open_a[i] + share_b * ub[i] * open_b[i]; });
+      run([&](int i) { return share_a * ua[i] * open_a[i] + share_b * ub[i] * open_b[i]; },
+          [&](int i) {
+            return speed_of(share_a * ua[i] * open_a[i] + share_b * ub[i] * open_b[i],
+                            share_a * open_a[i] + share_b * open_b[i]);
+          });
   }
 
   void south_fluxes(int j, const double* change_below, const double* change, double* flux) {
@@ -244,27 +247,36 @@ private:
       const Stencil4 s{mm[i], m[i], p[i], pp[i], h, per_mm, per_h, per_pp, before, after};
       return Scheme::face(s, v, dt, change_below[i], change[i], nu + 0.5 * (nut_below[i] + nut[i]));
     };
-    const bool split = splits() && exceeds(j);
-    const auto run = [&](auto through) {
+    const auto run = [&](auto through, auto speed) {
+      const bool split = splits() && exceeds(j, speed);
+      if (splits()) is_implicit_[j % 4] = split;
       if (!split) {
-        base::vector_loop(at.i0, at.i1, [&](int i) { flux[i] = through(i) * face(i, 0.5 * (va[i] + vb[i])); });
+        base::vector_loop(at.i0, at.i1, [&](int i) { flux[i] = through(i) * face(i, speed(i)); });
         return;
       }
       double* rest = implicit_[j % 4];
       base::vector_loop(at.i0, at.i1, [&](int i) {
-        const double v = 0.5 * (va[i] + vb[i]), most = most_explicit(i, j);
+        const double v = speed(i), most = most_explicit(i, j);
         const double borne = std::clamp(v, -most, most), all = through(i);
         const double explicitly = borne == v ? all : all * (borne / v);
         rest[i] = all - explicitly;
         flux[i] = explicitly * face(i, borne) + rest[i] * (v > 0 ? m[i] : p[i]);
       });
     };
-    if (splits()) is_implicit_[j % 4] = split;
     if (face_y_.is_one(j - sy) && face_y_.is_one(j))
-      run([&](int i) { return share_a[i] * va[i] + share_b[i] * vb[i]; });
+      run([&](int i) { return share_a[i] * va[i] + share_b[i] * vb[i]; }, [&](int i) { return 0.5 * (va[i] + vb[i]); });
     else
-      run([&](int i) { return share_a[i] * va[i] * open_a[i] + share_b[i] * vb[i] * open_b[i]; });
+      run([&](int i) { return share_a[i] * va[i] * open_a[i] + share_b[i] * vb[i] * open_b[i]; },
+          [&](int i) {
+            return speed_of(share_a[i] * va[i] * open_a[i] + share_b[i] * vb[i] * open_b[i],
+                            share_a[i] * open_a[i] + share_b[i] * open_b[i]);
+          });
   }
+
+  /// Mean speed through the open part of a face that is halves of two [m/s].  It has the sign of what passes: where one
+  /// half is a slit with a stream the other way, the plain mean of both may not, and the value from downstream would
+  /// feed the stream without bound.
+  static double speed_of(double through, double open) { return open > 0 ? through / open : 0.0; }
 
   /// Speed that the scheme bears at a south face of row j beside what passes along x [m/s].
   double most_explicit(int i, int j) const {
@@ -273,10 +285,10 @@ private:
     return std::max(0.0, q_.courant - passed) * h / q_.dt;
   }
 
-  bool exceeds(int j) const {
-    const double *va = carrier_.v(j - q_.at.shift_y) - q_.at.shift_x, *vb = carrier_.v(j);
+  template <class Speed>
+  bool exceeds(int j, Speed&& speed) const {
     return base::vector_largest(q_.at.i0, q_.at.i1, 0.0,
-                                [&](int i) { return 0.5 * std::abs(va[i] + vb[i]) - most_explicit(i, j); }) > 0;
+                                [&](int i) { return std::abs(speed(i)) - most_explicit(i, j); }) > 0;
   }
 
   const base::SharedRows &face_x_, &face_y_;

@@ -53,7 +53,7 @@ struct Hybrid {
     const double speed_h = std::abs(velocity) * s.h;
     const bool forward = velocity > 0;
     const double central = (forward ? s.to_face_m : s.to_face_p) * s.per_h;
-    const double downstream = speed_h * central < gamma ? central : gamma / speed_h;
+    const double downstream = speed_h * central <= gamma ? central : gamma / speed_h;
     return forward ? s.m + (s.p - s.m) * downstream : s.p + (s.m - s.p) * downstream;
   }
 };
