@@ -105,8 +105,8 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
     for (int i = 0; i < nx_; ++i) volume_c_(i, j) = slab_ * centres.volume(i, j);
   gusts_ = Gusts(nx_, ny_);
   room_ = EddyRoom(nx_, ny_, params.room_power, slab_);
-  for (Field* f : {&voids_, &slope_u_, &slope_v_, &rate_u_, &rate_v_, &curl_, &still_solid_, &still_beta_u_,
-                   &still_beta_v_, &still_damping_})
+  for (Field* f : {&voids_, &slope_u_, &slope_v_, &gust_slope_u_, &gust_slope_v_, &rate_u_, &rate_v_, &curl_,
+                   &still_solid_, &still_beta_u_, &still_beta_v_, &still_damping_})
     *f = Field(nx_, ny_);
 }
 
@@ -266,25 +266,26 @@ void Coupler::pass_room(flow::Solver& flow, double interval) {
 void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt) {
   const flow::State& s = flow.state;
   const double* per_hx = flow.at_c().per_hx.data() + 2;
-  const auto slopes_of = [&](const Field& energy) {
+  const auto slopes_of = [&](const Field& energy, Field& slope_u, Field& slope_v) {
     for_each_item(0, top_, [&](int j) {
       const double *k = energy.row(j), *below = energy.row(std::max(j - 1, 0)), per_hy = flow.at_c().per_hy[j + 2];
-      double *along_x = slope_u_.row(j), *along_y = slope_v_.row(j);
+      double *along_x = slope_u.row(j), *along_y = slope_v.row(j);
       vector_loop(1, nx_, [&](int i) { along_x[i] = (std::sqrt(k[i]) - std::sqrt(k[i - 1])) * per_hx[i]; });
       vector_loop(0, nx_, [&](int i) { along_y[i] = (std::sqrt(k[i]) - std::sqrt(below[i])) * per_hy; });
     });
   };
+  slopes_of(s.k, slope_u_, slope_v_);
   const bool attached = params_.dispersion == Dispersion::attached;
   if (attached) {
     gusts_.fill(flow.mesh(), s, room_.packed, top_, params_.dispersion_time, viscosity_);
+    slopes_of(gusts_.k, gust_slope_u_, gust_slope_v_);
     at_c_.gather(std::array<const Field*, 2>{&gusts_.k, &gusts_.time}, {&gust_k_, &gust_time_});
-    slopes_of(gusts_.k);
-    at_u_.gather(slope_u_, gust_slope_x_);
-    at_v_.gather(slope_v_, gust_slope_y_);
+    at_u_.gather(std::array<const Field*, 3>{&s.u, &slope_u_, &gust_slope_u_}, {&g.fluid.u, &slope_x_, &gust_slope_x_});
+    at_v_.gather(std::array<const Field*, 3>{&s.v, &slope_v_, &gust_slope_v_}, {&g.fluid.v, &slope_y_, &gust_slope_y_});
+  } else {
+    at_u_.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
+    at_v_.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
   }
-  slopes_of(s.k);
-  at_u_.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
-  at_v_.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
   eddies_.begin_step();
   const double energy = params_.dispersion_energy, size = std::sqrt(energy);
   over_grains(moving_, [&](int k) {

@@ -179,7 +179,7 @@ private:
   std::vector<double> surface_;  ///< highest grain that is still, in columns along the box [m]
 
   base::Field volume_c_;  ///< of the cells, water and grains, slab included [m3]
-  base::Field voids_, slope_u_, slope_v_, rate_u_, rate_v_, curl_;
+  base::Field voids_, slope_u_, slope_v_, gust_slope_u_, gust_slope_v_, rate_u_, rate_v_, curl_;
 };
 
 }  // namespace livebed::coupling

@@ -20,8 +20,10 @@ public:
   int volumes() const { return static_cast<int>(at_.size()) - 1; }
   double first() const { return at_.front(); }
   double last() const { return at_.back(); }
-  double narrowest() const { return narrowest_; }
-  double widest() const { return widest_; }
+  /// Most volumes that a length can touch.
+  int touched_by(double length) const;
+  /// Largest length of so many volumes side by side [m].
+  double widest(int volumes) const;
   /// The volume that x is in, or the nearest one.
   int volume_of(double x) const {
     const int bin =
@@ -33,7 +35,7 @@ public:
 
 private:
   std::vector<double> at_;
-  double narrowest_ = 0, widest_ = 0, bins_per_length_ = 0;
+  double narrowest_ = 0, bins_per_length_ = 0;
   std::vector<int> from_;  // the volume in which a bin of the table begins
 };
 
@@ -62,19 +64,21 @@ public:
   template <std::size_t M>
   void gather(const std::array<const base::Field*, M>& fields, const std::array<grains::Array*, M>& values) const {
     const int n = static_cast<int>(footprint_.size());
-    base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int block) {
-      for (int k = block * grains_a_block; k < std::min(n, (block + 1) * grains_a_block); ++k) {
-        std::array<double, M> sum{};
-        for_each_row(k, [&](int i0, auto ni, int j, double wy, const auto& wx) {
-          for (std::size_t m = 0; m < M; ++m) {
-            const double* v = fields[m]->row(j) + i0;
-            double row = 0;
-            for (int a = 0; a < ni; ++a) row += wx(a) * v[a];
-            sum[m] += wy * row;
-          }
-        });
-        for (std::size_t m = 0; m < M; ++m) (*values[m])[grain_[k]] = sum[m];
-      }
+    with_columns([&](auto columns) {
+      base::for_each_item(0, (n + grains_a_block - 1) / grains_a_block, [&](int block) {
+        for (int k = block * grains_a_block; k < std::min(n, (block + 1) * grains_a_block); ++k) {
+          std::array<double, M> sum{};
+          for_each_row(columns, k, [&](int i0, int j, double wy, const auto& wx) {
+            for (std::size_t m = 0; m < M; ++m) {
+              const double* v = fields[m]->row(j) + i0;
+              double row = 0;
+              for (int a = 0; a < columns; ++a) row += wx(a) * v[a];
+              sum[m] += wy * row;
+            }
+          });
+          for (std::size_t m = 0; m < M; ++m) (*values[m])[grain_[k]] = sum[m];
+        }
+      });
     });
   }
   void gather(const base::Field& field, grains::Array& values) const {
@@ -86,79 +90,81 @@ public:
   template <std::size_t M, class Values>
   void scatter(const std::array<base::Field*, M>& fields, Values&& values) const {
     const int bins = static_cast<int>(bin_first_.size()) - 1;
-    for (int parity = 0; parity < 2; ++parity)
-      base::for_each_item(0, (bins - parity + 1) / 2, [&](int half) {
-        const int bin = 2 * half + parity;
-        for (int k = bin_first_[bin]; k < bin_first_[bin + 1]; ++k) {
-          const int n = order_[k];
-          const std::array<double, M> value = values(grain_[n]);
-          for_each_row(n, [&](int i0, auto ni, int j, double wy, const auto& wx) {
-            for (std::size_t m = 0; m < M; ++m) {
-              double* to = fields[m]->row(j) + i0;
-              const double share = wy * value[m];
-              for (int a = 0; a < ni; ++a) to[a] += share * wx(a);
-            }
-          });
-        }
-      });
+    with_columns([&](auto columns) {
+      for (int parity = 0; parity < 2; ++parity)
+        base::for_each_item(0, (bins - parity + 1) / 2, [&](int half) {
+          const int bin = 2 * half + parity;
+          for (int k = bin_first_[bin]; k < bin_first_[bin + 1]; ++k) {
+            const int n = order_[k];
+            const std::array<double, M> value = values(grain_[n]);
+            for_each_row(columns, n, [&](int i0, int j, double wy, const auto& wx) {
+              for (std::size_t m = 0; m < M; ++m) {
+                double* to = fields[m]->row(j) + i0;
+                const double share = wy * value[m];
+                for (int a = 0; a < columns; ++a) to[a] += share * wx(a);
+              }
+            });
+          }
+        });
+    });
   }
 
 private:
   static constexpr int grains_a_block = 256;
 
-  /// The volumes a grain's kernel touches.
+  /// Where the volumes of a grain begin: columns_ x rows_ of them, as many as a kernel can touch anywhere.  Those that
+  /// it does not touch have no weight; numbers that change from grain to grain would cost more than they spare.
   struct Footprint {
-    int i0, ni, j0, nj;
+    int i0, j0;
     bool whole;  ///< all of them are entirely open
   };
-  /// Calls visit(first column, number of columns, row, weight along y, weight along x of each column times its open
-  /// fraction) once for each row of volumes of the nth grain.  The usual numbers of columns are constants to the
-  /// compiler: loops of three or four cost more than what is in them.
-  template <class Visit>
-  void for_each_row(int n, Visit&& visit) const {
-    switch (footprint_[n].ni) {
+  /// Calls work(columns_), the usual numbers as constants to the compiler.
+  template <class Work>
+  void with_columns(Work&& work) const {
+    switch (columns_) {
       case 1:
-        return for_each_row_of<1>(n, visit);
+        return work(std::integral_constant<int, 1>{});
       case 2:
-        return for_each_row_of<2>(n, visit);
+        return work(std::integral_constant<int, 2>{});
       case 3:
-        return for_each_row_of<3>(n, visit);
+        return work(std::integral_constant<int, 3>{});
       case 4:
-        return for_each_row_of<4>(n, visit);
+        return work(std::integral_constant<int, 4>{});
       case 5:
-        return for_each_row_of<5>(n, visit);
+        return work(std::integral_constant<int, 5>{});
       case 6:
-        return for_each_row_of<6>(n, visit);
+        return work(std::integral_constant<int, 6>{});
       default:
-        break;
-    }
-    const Footprint& f = footprint_[n];
-    const double *wx = weight_x(n), *wy = weight_y(n);
-    for (int b = 0; b < f.nj; ++b) {
-      const double* open = open_.row(f.j0 + b) + f.i0;
-      visit(f.i0, f.ni, f.j0 + b, wy[b], [wx, open](int a) { return wx[a] * open[a]; });
+        return work(columns_);
     }
   }
-  template <int ni, class Visit>
-  void for_each_row_of(int n, Visit& visit) const {
+  /// Calls visit(first column, row, weight along y, weight along x of each column times its open fraction) once for
+  /// each row of volumes of the nth grain.
+  template <class Columns, class Visit>
+  void for_each_row(Columns columns, int n, Visit&& visit) const {
     const Footprint& f = footprint_[n];
     const double* wy = weight_y(n);
-    std::array<double, ni> wx;
-    std::copy_n(weight_x(n), ni, wx.begin());
-    constexpr std::integral_constant<int, ni> columns;
+    const auto wx = weights_along_x(columns, n);
     if (f.whole) {
-      for (int b = 0; b < f.nj; ++b) visit(f.i0, columns, f.j0 + b, wy[b], [&wx](int a) { return wx[a]; });
+      for (int b = 0; b < rows_; ++b) visit(f.i0, f.j0 + b, wy[b], [&wx](int a) { return wx[a]; });
     } else {
-      for (int b = 0; b < f.nj; ++b) {
+      for (int b = 0; b < rows_; ++b) {
         const double* open = open_.row(f.j0 + b) + f.i0;
-        visit(f.i0, columns, f.j0 + b, wy[b], [&wx, open](int a) { return wx[a] * open[a]; });
+        visit(f.i0, f.j0 + b, wy[b], [&wx, open](int a) { return wx[a] * open[a]; });
       }
     }
   }
-  double* weight_x(int n) { return &weight_x_[static_cast<std::size_t>(n) * widest_]; }
-  double* weight_y(int n) { return &weight_y_[static_cast<std::size_t>(n) * widest_]; }
-  const double* weight_x(int n) const { return &weight_x_[static_cast<std::size_t>(n) * widest_]; }
-  const double* weight_y(int n) const { return &weight_y_[static_cast<std::size_t>(n) * widest_]; }
+  template <int columns>
+  std::array<double, columns> weights_along_x(std::integral_constant<int, columns>, int n) const {
+    std::array<double, columns> wx;
+    std::copy_n(weight_x(n), columns, wx.begin());
+    return wx;
+  }
+  const double* weights_along_x(int, int n) const { return weight_x(n); }
+  double* weight_x(int n) { return &weights_[static_cast<std::size_t>(n) * (columns_ + rows_)]; }
+  double* weight_y(int n) { return weight_x(n) + columns_; }
+  const double* weight_x(int n) const { return &weights_[static_cast<std::size_t>(n) * (columns_ + rows_)]; }
+  const double* weight_y(int n) const { return weight_x(n) + columns_; }
   void locate_one(int n, double x, double y);
   /// The nth grain, all of whose kernel is in closed volumes, as beside a pipe in cells larger than itself, belongs to
   /// the nearest volume with water; false when there is none within volumes_to_water of the kernel.
@@ -167,12 +173,13 @@ private:
 
   double half_width_ = 0;
   int first_column_ = 0, first_row_ = 0;
-  int widest_ = 0;           // most volumes a kernel spans in one direction
-  Edges edges_x_, edges_y_;  // of the volumes that may receive
-  base::Field open_;         // open fraction of each
+  int columns_ = 0, rows_ = 0;  // most volumes that a kernel touches along x and along y
+  Edges edges_x_, edges_y_;     // of the volumes that may receive
+  base::Field open_;            // open fraction of each
   std::vector<Footprint> footprint_;
-  std::vector<int> grain_;                   // which grain each is
-  std::vector<double> weight_x_, weight_y_;  // widest_ entries a grain; those along y hold the normalisation
+  std::vector<int> grain_;  // which grain each is
+  std::vector<double>
+      weights_;  // columns_ along x and rows_ along y of each grain; those along y hold the normalisation
   std::vector<int> bin_first_, order_, bin_of_;
 };
 

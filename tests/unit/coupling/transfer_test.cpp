@@ -22,6 +22,14 @@ flow::Mesh box(double cell) {
   return flow::make_mesh(grid, pipe);
 }
 
+/// The same box and pipe in cells that grow away from the pipe, in numbers as they come.
+flow::Mesh stretched_box() {
+  flow::MeshParams grid;
+  grid.length = length, grid.height = height, grid.cell_x = grid.cell_y = 1e-3, grid.growth = 1.3;
+  grid.fine_x_from = 0.04, grid.fine_x_to = 0.06, grid.fine_y_from = 0.012, grid.fine_y_to = 0.034;
+  return flow::make_mesh(grid, box(2e-3).pipe);
+}
+
 /// Places of grains: everywhere in the box but the pipe, many of them against pipe, floor, lid and ends.
 grains::State sand(int count) {
   const flow::PipeParams pipe = box(2e-3).pipe;
@@ -89,15 +97,15 @@ double sum(const base::Field& field) {
 }
 
 TEST(transfer, scatters_every_grain_whole) {
-  const flow::Mesh mesh = box(2e-3);
   const grains::State g = sand(400);
   const grains::Array values = random_values(g.x.size());
-  for (Kind& kind : kinds(mesh)) {
-    base::Field field(mesh.nx, mesh.ny);
-    kind.transfer.locate(g.x, g.y, all_of(g));
-    kind.transfer.scatter(std::array{&field}, [&](int n) { return std::array{values[n]}; });
-    EXPECT_NEAR(sum(field), sum(values), 1e-12 * sum(values)) << kind.name;
-  }
+  for (const flow::Mesh& mesh : {box(2e-3), stretched_box()})
+    for (Kind& kind : kinds(mesh)) {
+      base::Field field(mesh.nx, mesh.ny);
+      kind.transfer.locate(g.x, g.y, all_of(g));
+      kind.transfer.scatter(std::array{&field}, [&](int n) { return std::array{values[n]}; });
+      EXPECT_NEAR(sum(field), sum(values), 1e-12 * sum(values)) << kind.name;
+    }
 }
 
 TEST(transfer, gives_each_single_grain_weights_that_sum_to_one_and_are_not_negative) {
@@ -235,25 +243,25 @@ TEST(transfer, finds_water_for_a_grain_at_the_pipe_in_cells_larger_than_itself) 
 }
 
 TEST(transfer, gives_the_same_bits_on_any_number_of_threads) {
-  const flow::Mesh mesh = box(1e-3);
   const grains::State g = sand(3000);
   const grains::Array values = random_values(g.x.size());
-  for (Kind& kind : kinds(mesh)) {
-    base::Field first;
-    grains::Array gathered_first;
-    for (int threads : {1, 2, 3}) {
-      base::set_threads(threads);
-      base::Field field(mesh.nx, mesh.ny);
-      grains::Array gathered(g.x.size());
-      kind.transfer.locate(g.x, g.y, all_of(g));
-      kind.transfer.scatter(std::array{&field}, [&](int n) { return std::array{values[n]}; });
-      kind.transfer.gather(field, gathered);
-      if (threads == 1) first = field, gathered_first = gathered;
-      EXPECT_TRUE(field.storage() == first.storage()) << kind.name << " on " << threads << " threads";
-      EXPECT_TRUE(gathered == gathered_first) << kind.name << " on " << threads << " threads";
+  for (const flow::Mesh& mesh : {box(1e-3), stretched_box()})
+    for (Kind& kind : kinds(mesh)) {
+      base::Field first;
+      grains::Array gathered_first;
+      for (int threads : {1, 2, 3}) {
+        base::set_threads(threads);
+        base::Field field(mesh.nx, mesh.ny);
+        grains::Array gathered(g.x.size());
+        kind.transfer.locate(g.x, g.y, all_of(g));
+        kind.transfer.scatter(std::array{&field}, [&](int n) { return std::array{values[n]}; });
+        kind.transfer.gather(field, gathered);
+        if (threads == 1) first = field, gathered_first = gathered;
+        EXPECT_TRUE(field.storage() == first.storage()) << kind.name << " on " << threads << " threads";
+        EXPECT_TRUE(gathered == gathered_first) << kind.name << " on " << threads << " threads";
+      }
+      base::set_threads(1);
     }
-    base::set_threads(1);
-  }
 }
 
 }  // namespace
