@@ -388,6 +388,13 @@ void check(const Case& c, const Sources& sources, Faults& faults) {
                 "output.tracks_every and output.contacts_every need grains; the bed has none");
 }
 
+double least_rise(const Case& c) {
+  if (c.grains.count == 0) return 0;
+  const double solid = 2.0 / 3.0 * c.grains.packing_fraction;  // spheres in the slab, of circles in the plane
+  const double weight = (c.grains.density - c.flow.density) * c.grains.gravity * solid;  // of the bed [N/m3]
+  return c.flow.density * c.flow.current.mean_speed / (push_to_note * weight);
+}
+
 std::vector<std::string> notes(const Case& c) {
   std::vector<std::string> all;
   if (c.grains.count > 0 && c.grains.stiffness > 0 &&
@@ -401,6 +408,11 @@ std::vector<std::string> notes(const Case& c) {
         fmt::format("contact.damping = {} with contact.steps = {} may never come to rest in a dense bed: "
                     "give 40 steps or more",
                     c.grains.damping, c.grains.steps_per_contact));
+  if (const double rise = c.flow.current.rise, least = least_rise(c); rise > 0 && rise < least)
+    all.push_back(fmt::format(
+        "while the current comes up, the pressure that speeds up the water pushes the bed along with {:.2g} of "
+        "its weight in water: give current.rise {:.2g} s or more",
+        push_to_note * least / rise, least));
   if (c.flow.pipe.present && c.grains.count > 0 && c.bed_thickness < 1.5 * c.flow.pipe.diameter)
     all.push_back(fmt::format("the bed is {:.2g} D thick: a hole of 0.9 D comes near the floor of the box",
                               c.bed_thickness / c.flow.pipe.diameter));

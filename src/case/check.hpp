@@ -27,10 +27,18 @@ inline constexpr double least_kernel_in_cells = 0.125;  ///< a narrower one leav
 inline constexpr double most_cells_in_kernel = 20;
 /// A larger estimate of the static overlap at the bottom of the bed over d earns a note: the bed would be too soft.
 inline constexpr double overlap_to_note = 0.01;
+/// So does a current that comes up so fast that the pressure which speeds up the water pushes the bed along with more
+/// than this share of its weight in water: half of what friction bears.
+inline constexpr double push_to_note = 0.3;
 
 /// The sieve curve of a text like "0.2 mm: 10 %, 0.36 mm: 50 %".  Throws Fault (invalid case) naming the point that
 /// cannot be read; whether the curve makes sense is checked elsewhere (grains::check_grading).
 grains::Grading parse_grading(std::string_view text);
+
+/// Shortest current.rise [s] that pushes the bed with no more than push_to_note of its weight in water; 0 without a
+/// bed. The pressure that makes water gather speed pushes all sand alike, as the flume's pump and its length decide,
+/// not the size of the grains: scaled to the time of larger ones it can wash away the bed as a whole.
+double least_rise(const Case& c);
 
 /// Fills every derived number of a case whose given keys are set; c.given says which of the alternatives they are.
 void derive(Case& c);

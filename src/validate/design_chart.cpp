@@ -8,6 +8,7 @@
 #include "base/approach.hpp"
 #include "base/fault.hpp"
 #include "base/sediment.hpp"
+#include "case/check.hpp"
 #include "case/expected.hpp"
 #include "case/read.hpp"
 #include "case/resolved.hpp"
@@ -24,9 +25,9 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double scatter = 0.2;           ///< of experiments in S/D, one standard deviation (Sumer and Fredsoe 2002)
-constexpr double length_over_T = 6;       ///< of a run
+constexpr double length_over_T = 6;       ///< of a run; a current that comes up late is followed as much longer
 constexpr double opened = 0.2;            ///< S/D from which on there is a tunnel whose growth has a time scale
-constexpr double rise_over_T = 4 / 11.5;  ///< of the current, as in cases/mao
+constexpr double rise_over_T = 4 / 11.5;  ///< of the current, as in cases/mao; never faster than the bed bears
 constexpr unsigned seeds = 2;
 constexpr const char* exponent_row = "exponent";
 const std::vector<double> gaps = {0, 0.1, 0.3, 0.5, 1.0};          ///< e/D, at theta_of_gaps
@@ -42,7 +43,7 @@ struct Point {
   double T = 0;           ///< by the formula [s]
   double S = 0;           ///< S/D, mean of the last 2 T
   double change = 0;      ///< of it from the first to the second of them
-  double fitted_T = nan;  ///< of S_eq (1 - exp(-t/T)) [s]
+  double fitted_T = nan;  ///< of S - S_eq ~ exp(-t/T) since the current is full [s]
 };
 
 /// cases/mao with grains of 2 mm; all pipes among fine cells.  Times follow T and the passage of the water.
@@ -57,8 +58,9 @@ casefile::Case case_of(double gap, double theta, unsigned seed) {
                                    fmt::format("bed.seed={}", seed)};
   const casefile::Case at = casefile::read_text(mao_case, "design-chart", keys);
   const double T = at.time_scale, passage = at.flow.mesh.length / at.flow.current.mean_speed;
-  keys.push_back(fmt::format("time.end={:.4g}", length_over_T * T));
-  keys.push_back(fmt::format("current.rise={:.4g}", rise_over_T * T));
+  const double rise = std::max(rise_over_T * T, casefile::least_rise(at));
+  keys.push_back(fmt::format("time.end={:.4g}", length_over_T * T + rise - rise_over_T * T));
+  keys.push_back(fmt::format("current.rise={:.4g}", rise));
   keys.push_back(fmt::format("time.spin_up={:.4g}", 4 * passage));
   keys.push_back(fmt::format("output.series_every={:.4g}", 0.01 * T));
   keys.push_back(fmt::format("output.bed_every={:.4g}", 0.05 * T));
@@ -74,7 +76,11 @@ Point point_of(const Scour& run, unsigned number, double gap, double theta) {
   p.S = mean_depth(run, end - 2 * p.T, end);
   p.change = mean_depth(run, end - p.T, end) - mean_depth(run, end - 2 * p.T, end - p.T);
   if (p.S < opened) return p;
-  if (const auto fit = base::fit_approach(run.t, run.depth)) p.fitted_T = fit->T;
+  const double full = run.resolved.flow.current.rise, S = mean_depth(run, full - 0.05 * p.T, full + 0.05 * p.T);
+  std::vector<double> since, deeper;
+  for (std::size_t n = 0; n < run.t.size(); ++n)
+    if (run.t[n] >= full) since.push_back(run.t[n] - full), deeper.push_back(run.depth[n] - S);
+  if (const auto fit = base::fit_approach(since, deeper)) p.fitted_T = fit->T;
   return p;
 }
 
@@ -94,7 +100,7 @@ double exponent_of_time(const std::vector<Point>& points) {
 struct Tables {
   RunTable points{
       "live-bed scour under a pipe of 5 cm, grains of 2 mm; S/D: mean of the last 2 T; T by the formula of "
-      "Fredsoe, Sumer and Arnskov (1992); T_fit: of S_eq (1 - exp(-t/T))",
+      "Fredsoe, Sumer and Arnskov (1992); T_fit: of S - S_eq ~ exp(-t/T) since the current is full",
       "run,e_over_D,theta,seed,end_over_T,S_over_D,change_over_D,T_s,T_fit_s"};
   RunTable courses{"S/D in time, means of a twentieth of T", "run,e_over_D,theta,seed,t_over_T,S_over_D"};
 
@@ -175,8 +181,9 @@ std::string figure_of(const std::vector<Point>& all, const io::Table& courses) {
   for (const Point& p : by_current) T_star.push_back(p.fitted_T / p.T * std::pow(p.theta, -5.0 / 3) / 50);
   add_points(time_chart, by_current, values(by_current, &Point::theta), T_star);
 
-  report::Chart course{{"t/T", 0, length_over_T}, {"S/D", 0, 1.2}, {}};
-  course.curves.push_back({"0.6 (1 - exp(-t/T))", "#000000", line(0, length_over_T), {}});
+  constexpr double longest = length_over_T + 2;
+  report::Chart course{{"t/T", 0, longest}, {"S/D", 0, 1.2}, {}};
+  course.curves.push_back({"0.6 (1 - exp(-t/T))", "#000000", line(0, longest), {}});
   for (double t : course.curves.front().x) course.curves.front().y.push_back(0.6 * (1 - std::exp(-t)));
   for (const Point& p : by_current) {
     if (p.seed != 1) continue;
@@ -245,7 +252,7 @@ Result design_chart(const Only& only, const Tell& tell) {
     };
     const base::EquilibriumDepth wanted = *base::equilibrium_depth(gap);
     // Judged only where the run has come to its end; the scatter is that of experiments where the pipe touches.
-    const bool ended = p.end > 0.99 * length_over_T;
+    const bool ended = run->t.back() > 0.99 * run->resolved.time.end;
     add("S/D over the last 2 T", p.S, "-", ended ? wanted.over_D - scatter : nan, ended ? wanted.over_D + scatter : nan,
         fmt::format("{} ({})", wanted.formula, wanted.source));
     add("change within them", p.change, "-", nan, nan, "");

@@ -51,7 +51,7 @@ Experiment study_of_mao() {
   for (const Variant& variant : variants()) {
     const auto number = static_cast<unsigned>(e.runs.size()) + 1;
     MaoRun run{number, fmt::format("{}, {}", e.name, variant.name), variant.name, keys_of_07mm()};
-    for (const char* key : {"time.end=9.45", "grains.precision=mixed"}) set(run.keys, key);
+    set(run.keys, "time.end=9.45");
     for (const std::string& key : variant.keys) set(run.keys, key);
     run.says = variant.name;
     e.runs.push_back(run);

@@ -188,6 +188,16 @@ TEST(notes, tell_of_a_soft_bed_a_thin_one_and_a_restless_one) {
   EXPECT_EQ(notes(read("preset = \"mbs2d\"\n[current]\ntheta = 0.2\n", {"contact.steps=20"})).size(), 2u);
 }
 
+TEST(notes, tell_of_a_current_that_comes_up_too_fast) {
+  const char* text = "[current]\nmean_speed = 0.9\n[mesh]\nheight = 0.3\n[bed]\nthickness = 0.1\n";
+  // A bed of 0.82 discs, two thirds of that spheres, of sand 1650 kg/m3 heavier than water: 8.85 kPa/m.
+  EXPECT_TRUE(notes(read(text, {"current.rise=0.35"})).empty());
+  const std::vector<std::string> told = notes(read(text, {"current.rise=0.2"}));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("with 0.51 of its weight"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("current.rise 0.34 s or more"), std::string::npos) << told[0];
+}
+
 class ShippedCase : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(ShippedCase, is_read_without_a_fault) {
