@@ -42,12 +42,10 @@ Result mao_1mm(const Only& only, const Tell& tell) {
                                     "time.grain_step=2e-5", "time.spin_up=1.5", "time.end=8.1", "current.rise=0.86"}),
                           only, tell);
 }
-// The current takes 0.6 s to come up, not the 0.307 s that the scaled time would have: the pressure that speeds up the
-// water would push the bed along with 0.6 of its weight in water (casefile::least_rise).
 Result mao_2mm(const Only& only, const Tell& tell) {
   return hold_against_mao(seeds_of("mao-2mm-livebed", mao_case,
                                    {"grains.diameter=2 mm", "mesh.cell_y=1.2 mm", "bed.pieces=1",
-                                    "time.grain_step=4e-5", "time.spin_up=1.5", "time.end=2.85", "current.rise=0.6"}),
+                                    "time.grain_step=4e-5", "time.spin_up=1.5", "time.end=2.85", "current.rise=0.307"}),
                           only, tell);
 }
 Result mao_paper(const Only& only, const Tell& tell) {
