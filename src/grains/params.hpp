@@ -74,7 +74,7 @@ struct Params {
 
   // sleep
   bool sleep = false;         ///< grains at rest may be passed over
-  double sleep_speed = 0.05;  ///< slower than this over sqrt(g' d), g' of submerged_gravity, counts as at rest [-]
+  double sleep_speed = 0.02;  ///< slower than this over sqrt(g' d), g' of submerged_gravity, counts as at rest [-]
   double sleep_time = 0.5;    ///< that long over sqrt(d / g') before they fall asleep [-]
   double sleep_force = 0.5;   ///< change of the contact force over what presses a grain that wakes it [-]
   double sleep_drag = 0.1;    ///< change of the fluid's force over what presses the grain that wakes it [-]

@@ -33,6 +33,7 @@ const std::vector<Variant>& variants() {
       {"turbulent layer on the pipe", {"pipe.boundary_layer=turbulent"}},
       {"nothing fed", {"bed.supply=none"}},
       {"sand goes round", {"bed.supply=periodic"}},
+      {"grains asleep below a fifth of the speed", {"grains.sleep_speed=0.01"}},
   };
   return all;
 }

@@ -116,24 +116,31 @@ TEST(sleep, ends_from_the_top_down_when_water_lifts_the_whole_bed) {
 }
 
 TEST(sleep, ends_when_what_a_grain_lies_on_is_taken_away) {
-  // A column between walls: when the pipe below it goes, all that sleeps above has to come down.
+  // Columns between walls: when the pipe below goes, all that sleeps above has to come down.  Beds that nobody sleeps
+  // in fall by 1.98 to 2.16 d, so it is the mean of five that is compared.
+  constexpr unsigned beds = 5;
   Params p;
-  p.stiffness = 5500, p.restitution = 0.3;
-  p.length = 0.053, p.count = 300;
-  Bed bed = pack(p).bed;
-  place_pipe(bed, {.present = true, .x = 0.025, .y = 0.0125, .diameter = 0.015});
-  bed.params.sleep = true;
-  advance(bed, falls_asleep_within(bed));
-  EXPECT_GT(share_asleep(bed.state), 0.5);
-  const double height = bed_height(bed.state);
-  bed.pipe.present = false;
-  Bed awake = bed;
-  awake.params.sleep = false;
-  const int steps = static_cast<int>(0.4 / bed.params.step);
-  advance(bed, steps);
-  advance(awake, steps);
-  EXPECT_LT(bed_height(awake.state), height - 0.5 * p.diameter);
-  EXPECT_NEAR(bed_height(bed.state), bed_height(awake.state), 0.15 * p.diameter);
+  double asleep_fell = 0, awake_fell = 0;  // means [d]
+  for (unsigned seed = 1; seed <= beds; ++seed) {
+    p.stiffness = 5500, p.restitution = 0.3;
+    p.length = 0.053, p.count = 300, p.seed = seed;
+    Bed bed = pack(p).bed;
+    place_pipe(bed, {.present = true, .x = 0.025, .y = 0.0125, .diameter = 0.015});
+    bed.params.sleep = true;
+    advance(bed, falls_asleep_within(bed));
+    EXPECT_GT(share_asleep(bed.state), 0.5);
+    const double height = bed_height(bed.state);
+    bed.pipe.present = false;
+    Bed awake = bed;
+    awake.params.sleep = false;
+    const int steps = static_cast<int>(0.4 / bed.params.step);
+    advance(bed, steps);
+    advance(awake, steps);
+    asleep_fell += (height - bed_height(bed.state)) / (beds * p.diameter);
+    awake_fell += (height - bed_height(awake.state)) / (beds * p.diameter);
+  }
+  EXPECT_GT(awake_fell, 1.5);
+  EXPECT_NEAR(asleep_fell, awake_fell, 0.25);
 }
 
 TEST(sleep, keeps_histories_of_both_sides_equal) {
