@@ -135,7 +135,7 @@ std::vector<Picture> draw(const Experiment& e, const Tables& tables, double unit
 
 const std::vector<std::string>& keys_of_07mm() {
   static const std::vector<std::string> keys = {"grains.diameter=0.7 mm", "mesh.cell_y=0.42 mm",   "bed.pieces=3",
-                                                "time.grain_step=1.4e-5", "time.spin_up=2",        "time.end=13.7",
+                                                "time.grain_step=1.4e-5", "time.spin_up=2",        "time.end=13.75",
                                                 "current.rise=1.475",     "grains.precision=mixed"};
   return keys;
 }
