@@ -128,7 +128,12 @@ double mean_depth(const Scour& s, double from, double to) {
   return n > 0 ? sum / n : nan;
 }
 
-double first_time(const Scour& s, double S_over_D) { return base::time_to_reach(s.t, s.depth, S_over_D).value_or(nan); }
+double first_time(const Scour& s, double S_over_D, double span) {
+  std::vector<double> mean(s.t.size());
+  std::transform(s.t.begin(), s.t.end(), mean.begin(),
+                 [&](double t) { return mean_depth(s, t - 0.5 * span, t + 0.5 * span); });
+  return base::time_to_reach(s.t, mean, S_over_D).value_or(nan);
+}
 
 const std::vector<double>& line_at(const Scour& s, double t) {
   const auto nearest = std::min_element(s.t_lines.begin(), s.t_lines.end(),

@@ -32,8 +32,9 @@ Row missing(const std::string& name);
 
 /// Mean S/D over [from, to] s; NaN where the run has nothing.
 double mean_depth(const Scour& s, double from, double to);
-/// When S first reaches a level, from line to line [s]; NaN when it never does.
-double first_time(const Scour& s, double S_over_D);
+/// When the mean of S over `span` seconds about a moment first reaches a level, from line to line [s]; NaN when it
+/// never does.  A single look may find the bed deeper for a moment by a fifth of D.
+double first_time(const Scour& s, double S_over_D, double span);
 /// The bed line nearest to a time [s], at Scour::x.
 const std::vector<double>& line_at(const Scour& s, double t);
 /// Who made the run, in a line.

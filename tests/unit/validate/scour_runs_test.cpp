@@ -27,8 +27,16 @@ TEST(scour_runs, mean_depth_of_a_window) {
 }
 
 TEST(scour_runs, first_time_between_two_rows) {
-  EXPECT_NEAR(first_time(rising(), 0.125), 0.25, 1e-12);
-  EXPECT_TRUE(std::isnan(first_time(rising(), 0.6)));
+  EXPECT_NEAR(first_time(rising(), 0.125, 0.05), 0.25, 1e-12);
+  EXPECT_NEAR(first_time(rising(), 0.125, 0.25), 0.25, 1e-12);
+  EXPECT_TRUE(std::isnan(first_time(rising(), 0.6, 0.05)));
+}
+
+TEST(scour_runs, first_time_passes_over_a_single_look) {
+  Scour s = rising();
+  s.depth[1] = 0.3;
+  EXPECT_NEAR(first_time(s, 0.2, 0.05), 0.1 * 0.2 / 0.3, 1e-12);
+  EXPECT_NEAR(first_time(s, 0.2, 0.25), 0.4, 1e-12);
 }
 
 TEST(scour_runs, nearest_line) {
