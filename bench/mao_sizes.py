@@ -5,16 +5,20 @@
 
 Reads what `livebed validate mao`, `mao-0.7mm`, `mao-1mm` and `mao-2mm-livebed` have left in the folder (NAME.json,
 NAME-depth.csv, NAME-profiles.csv); sizes that have not been run are left out.  Times are those of Mao's clock: of larger
-grains they are scaled by T, which goes as d^-1.5.  Prints the means over the seeds, their range in brackets.
+grains they are scaled by T, which goes as d^-1.5.  Prints a table of sizes (means over the seeds, their range in brackets) and one
+of runs.
 """
 import argparse
 import collections
 import csv
 import json
+import math
 import pathlib
 import statistics
 
 SIZES = [("mao", 0.36), ("mao-0.7mm", 0.7), ("mao-1mm", 1.0), ("mao-2mm-livebed", 2.0)]  # [mm]
+MAO_T = 11.5, 11.5456  # of his experiment [s]: as `livebed validate` takes it, and by the formula that gives T of others
+PLATEAU, SPANS = 0.91, [(1, 12), (1, 25), (1, 37)]  # of Mao's hole; where S/D is held against his
 WINDOWS = [(0.5, 1.5), (1.5, 2.5), (3.5, 4.5), (7, 9), (10, 12), (16.5, 19.5), (23.5, 26.5), (30, 37)]  # of Mao's clock [s]
 DATA = pathlib.Path(__file__).parent.parent / "data"
 COLOURS = ["#000000", "#1f77b4", "#2ca02c", "#d62728"]
@@ -29,7 +33,8 @@ class Runs:
     """All seeds with one size of grains."""
 
     def __init__(self, folder, name, d):
-        self.d, scale = d, (d / SIZES[0][1]) ** 1.5
+        self.d = d
+        scale = 1.0 if name == "mao" else (d / SIZES[0][1]) ** 1.5 * MAO_T[0] / MAO_T[1]
         self.depth = collections.defaultdict(list)  # seed: [(t, S/D), ...]
         for row in rows(folder / f"{name}-depth.csv"):
             self.depth[int(row["seed"])].append((float(row["t_s"]) * scale, float(row["S_over_D"])))
@@ -37,11 +42,11 @@ class Runs:
         for row in rows(folder / f"{name}-profiles.csv"):
             at = int(row["seed"]), round(float(row["t_s"]) * scale)
             self.bed[at].append((float(row["x_D"]), float(row["y_bed_D"])))
-        self.skill = collections.defaultdict(list)  # t: of each seed
+        self.skill = collections.defaultdict(dict)  # t: {seed: skill}
         for row in json.loads((folder / f"{name}.json").read_text(encoding="utf-8")):
             for t in (11, 25):
                 if f"Brier skill score of the bed at {t} s" in row["name"]:
-                    self.skill[t].append(row["value"])
+                    self.skill[t][int(row["name"].split("seed ")[1].split(":")[0])] = row["value"]
 
     def mean(self, window):
         """Of S/D in a window of time, for each seed that has come to its end."""
@@ -50,6 +55,34 @@ class Runs:
             if points[-1][0] >= 0.99 * window[1]:
                 means.append(statistics.mean(S for t, S in points if window[0] <= t <= window[1]))
         return means
+
+
+    def rms(self, seed, span, mao):
+        """Of S/D about Mao's over a span of time, by the middles of 1000 equal parts; None when the run ends before."""
+        points = self.depth[seed]
+        if points[-1][0] < 0.999 * span[1]:
+            return None
+        parts = [span[0] + (n + 0.5) * (span[1] - span[0]) / 1000 for n in range(1000)]
+        return statistics.mean((at(points, t) - at(mao, t)) ** 2 for t in parts) ** 0.5
+
+    def time_to(self, seed, level):
+        """When the mean of S/D over a second reaches a level."""
+        points = self.depth[seed]
+        for t, _ in points:
+            if statistics.mean(S for at, S in points if abs(at - t) <= 0.5) >= level:
+                return t
+        return None
+
+
+def at(points, t):
+    """Of [(t, S/D), ...] at a time, by straight lines."""
+    after = next((n for n, (when, _) in enumerate(points) if when >= t), len(points) - 1)
+    (t0, S0), (t1, S1) = points[max(after - 1, 0)], points[after]
+    return S1 if t1 == t0 else S0 + (S1 - S0) * (min(t, t1) - t0) / (t1 - t0)
+
+
+def each(values, digits):
+    return "-" if values is None else f"{values:.{digits}f}"
 
 
 def told(values):
@@ -108,12 +141,22 @@ def main():
     print("| " + " | ".join(head) + " |\n" + "|---" * len(head) + "|")
     for of in runs:
         cells = [f"{of.d:g}", str(len(of.depth))] + [told(of.mean(w)) for w in WINDOWS]
-        print("| " + " | ".join(cells + [told(of.skill[11]), told(of.skill[25])]) + " |")
-    mao = rows(DATA / "mao1986_livebed_depth.csv")
-    cells = []
-    for a, b in WINDOWS:
-        cells.append(told([statistics.mean([float(r["S_over_D"]) for r in mao if a <= float(r["t_s"]) <= b] or [float("nan")])]))
-    print("| Mao | | " + " | ".join(cells) + " | | |")
+        print("| " + " | ".join(cells + [told(list(of.skill[t].values())) for t in (11, 25)]) + " |")
+    mao = [(float(r["t_s"]), float(r["S_over_D"])) for r in rows(DATA / "mao1986_livebed_depth.csv")]
+    cells = [told([statistics.mean([S for t, S in mao if a <= t <= b] or [float("nan")])]) for a, b in WINDOWS]
+    print("| Mao | | " + " | ".join(cells) + " | | |\n")
+
+    head = ["d [mm]", "seed", "to [s]"] + [f"rms {a} to {b} s" for a, b in SPANS]
+    head += ["63 % of his plateau at [s]", "30 to 37 s", "Brier skill 11 s", "25 s"]
+    print("| " + " | ".join(head) + " |\n" + "|---" * len(head) + "|")
+    for of in runs:
+        for seed, points in of.depth.items():
+            cells = [f"{of.d:g}", str(seed), f"{min(points[-1][0], 37):.1f}"]
+            cells += [each(of.rms(seed, span, mao), 3) for span in SPANS]
+            cells += [each(of.time_to(seed, (1 - math.exp(-1)) * PLATEAU), 1)]
+            late = [S for t, S in points if 30 <= t <= 37]
+            cells += [each(statistics.mean(late) if points[-1][0] > 36.9 else None, 2)]
+            print("| " + " | ".join(cells + [each(of.skill[t].get(seed), 2) for t in (11, 25)]) + " |")
     if arguments.figure:
         figure(arguments.figure, runs)
 
