@@ -48,8 +48,6 @@ void level(double* values, int first, int last) {
   std::fill(values + first, values + last, mean);
 }
 
-bool is_still(const grains::State& g, int k) { return !g.fluid.still.empty() && g.fluid.still[k] != 0; }
-
 /// Calls body(k) for every grain of a list, on all threads.
 template <class Body>
 void over_grains(const std::vector<int>& which, Body&& body) {
@@ -90,14 +88,14 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
       owed_v_(nx_, ny_) {
   const flow::Mesh& m = flow.mesh();
   const flow::Staggering centres = flow::Staggering::centres(m);
-  at_u_ = Transfer(flow::Staggering::west_faces(m), m.aperture_x, 1, nx_ - 1, reach_);
-  at_v_ = Transfer(flow::Staggering::south_faces(m), m.aperture_y, 0, nx_ - 1, reach_);
-  at_c_ = Transfer(centres, m.volume, 0, nx_ - 1, reach_);
+  at_.u = Transfer(flow::Staggering::west_faces(m), m.aperture_x, 1, nx_ - 1, reach_);
+  at_.v = Transfer(flow::Staggering::south_faces(m), m.aperture_y, 0, nx_ - 1, reach_);
+  at_.c = Transfer(centres, m.volume, 0, nx_ - 1, reach_);
+  still_ = StillGrains(nx_, ny_, materials.grains, materials.grain_diameter);
   if (params.dispersion != Dispersion::none) eddies_ = Eddies(materials.grains, materials.seed);
   for (grains::Array* a :
-       {&eddy_k_,   &eddy_epsilon_, &gust_k_,  &gust_time_,  &gust_slope_x_, &gust_slope_y_, &eddy_u_,  &eddy_v_,
-        &slope_x_,  &slope_y_,      &rate_x_,  &rate_y_,     &vorticity_,    &given_x_,      &given_y_, &before_u_,
-        &before_v_, &still_x_,      &still_y_, &still_beta_, &still_volume_, &still_damps_})
+       {&eddy_k_, &eddy_epsilon_, &gust_k_, &gust_time_, &gust_slope_x_, &gust_slope_y_, &eddy_u_, &eddy_v_, &slope_x_,
+        &slope_y_, &rate_x_, &rate_y_, &vorticity_, &given_x_, &given_y_, &before_u_, &before_v_})
     a->assign(materials.grains, 0.0);
   voidage_.assign(materials.grains, 1.0);
   volume_c_ = Field(nx_, ny_);
@@ -105,8 +103,7 @@ Coupler::Coupler(const Params& params, const flow::Solver& flow, const Materials
     for (int i = 0; i < nx_; ++i) volume_c_(i, j) = slab_ * centres.volume(i, j);
   gusts_ = Gusts(nx_, ny_);
   room_ = EddyRoom(nx_, ny_, params.room_power, slab_);
-  for (Field* f : {&voids_, &slope_u_, &slope_v_, &gust_slope_u_, &gust_slope_v_, &rate_u_, &rate_v_, &curl_,
-                   &still_solid_, &still_beta_u_, &still_beta_v_, &still_damping_})
+  for (Field* f : {&voids_, &slope_u_, &slope_v_, &gust_slope_u_, &gust_slope_v_, &rate_u_, &rate_v_, &curl_})
     *f = Field(nx_, ny_);
 }
 
@@ -114,88 +111,20 @@ void Coupler::locate(const grains::State& g) {
   moving_.clear();
   for (int k = 0; k < g.count(); ++k)
     if (!is_still(g, k)) moving_.push_back(k);
-  for (Transfer* at : {&at_u_, &at_v_, &at_c_}) at->locate(g.x, g.y, moving_);
+  at_.locate(g.x, g.y, moving_);
   located_ = true;
 }
 
-void Coupler::add_still(const std::vector<int>& ids, double sign) {
-  if (ids.empty()) return;
-  for (Transfer* at : {&at_u_, &at_v_, &at_c_}) at->locate(still_x_, still_y_, ids);
-  located_ = false;
-  const auto beta = [&](int id) { return std::array{sign * still_beta_[id]}; };
-  at_u_.scatter(std::array{&still_beta_u_}, beta);
-  at_v_.scatter(std::array{&still_beta_v_}, beta);
-  at_c_.scatter(std::array{&still_solid_, &still_damping_}, [&](int id) {
-    return std::array{sign * still_volume_[id], sign * still_damps_[id]};
-  });
-}
-
-void Coupler::wake(grains::State& g) {
-  woken_.clear();
-  if (g.sleep.asleep.empty()) return;
-  std::vector<int> ids;
-  for (int k = 0; k < g.count(); ++k) {
-    if (!is_still(g, k) || g.sleep.asleep[k] != 0) continue;
-    g.fluid.still[k] = 0;
-    woken_.push_back(k), ids.push_back(g.id[k]);
-  }
-  add_still(ids, -1);
-}
-
 void Coupler::let_leave(grains::State& g, const std::vector<int>& leaving) {
-  std::vector<int> ids;
-  for (const int k : leaving)
-    if (is_still(g, k)) ids.push_back(g.id[k]);
-  add_still(ids, -1);
+  still_.let_leave(g, at_, leaving);
   located_ = voids_filled_ = false;
-}
-
-void Coupler::forget_still(grains::State& g) {
-  g.fluid.still.assign(g.x.size(), 0);
-  for (Field* sum : {&still_solid_, &still_beta_u_, &still_beta_v_, &still_damping_}) sum->fill(0.0);
-  located_ = voids_filled_ = false;
-}
-
-void Coupler::unsettle_surface(grains::State& g) {
-  constexpr double wide = 3;  // columns [d]: each holds some grains of the topmost layer
-  const double per_width = 1.0 / (wide * slab_);
-  const auto column = [&](int k) { return static_cast<std::size_t>(std::max(0.0, g.x[k] * per_width)); };
-  std::fill(surface_.begin(), surface_.end(), 0.0);
-  for (int k = 0; k < g.count(); ++k) {
-    if (!is_still(g, k)) continue;
-    if (column(k) >= surface_.size()) surface_.resize(column(k) + 1, 0.0);
-    surface_[column(k)] = std::max(surface_[column(k)], g.y[k]);
-  }
-  std::vector<int> ids;
-  for (int k = 0; k < g.count(); ++k) {
-    if (!is_still(g, k) || g.y[k] < surface_[column(k)] - surface_depth * slab_) continue;
-    g.fluid.still[k] = 0;
-    ids.push_back(g.id[k]);
-  }
-  add_still(ids, -1);
-  voids_filled_ = false;  // nor is the void fraction around them
 }
 
 template <class Rests>
 void Coupler::settle(grains::State& g, Rests&& rests) {
-  const std::int64_t place = ++steps_ % steps_a_round;
-  if (place == 0 && steps_ / steps_a_round % rounds_of_the_deep == 0)
-    forget_still(g);
-  else if (place == 0)
-    unsettle_surface(g);
-  if (place != 1) return;
-  g.fluid.still.resize(g.x.size());
-  std::vector<int> still;
-  for (int k = 0; k < g.count(); ++k) {
-    if (is_still(g, k) || !rests(k)) continue;
-    const int id = g.id[k];
-    g.fluid.still[k] = 1, still.push_back(id);
-    still_x_[id] = g.x[k], still_y_[id] = g.y[k];
-    still_beta_[id] = g.fluid.beta[k], still_volume_[id] = base::sphere_volume(g.diameter[k]);
-    before_u_[id] = g.u[k], before_v_[id] = g.v[k];  // for the step in which it wakes; 0 if it sleeps, as after a load
-  }
-  add_still(still, 1);
-  voids_filled_ = false;
+  // What is asked of a grain in the step in which it wakes; of those asleep it is zero, as after a load.
+  for (const int k : still_.step(g, at_, rests)) before_u_[g.id[k]] = g.u[k], before_v_[g.id[k]] = g.v[k];
+  if (still_.changed()) located_ = voids_filled_ = false;
 }
 
 void Coupler::hold(grains::State& g) {
@@ -203,8 +132,8 @@ void Coupler::hold(grains::State& g) {
 }
 
 void Coupler::let_go(grains::State& g) {
-  forget_still(g);
-  steps_ = 0;
+  still_.begin(g);
+  located_ = voids_filled_ = false;
 }
 
 int Coupler::rows_with_grains(const grains::State& g) const {
@@ -238,7 +167,7 @@ void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double inte
       params_.dispersion != Dispersion::attached)
     return;
   voids_filled_ = true;
-  voids_ = still_solid_;
+  voids_ = still_.solid;
   add_volumes(g, voids_);
   to_fractions(voids_);
   for_each_item(0, ny_, [&](int j) {
@@ -246,7 +175,7 @@ void Coupler::fill_voids(const grains::State& g, flow::Solver& flow, double inte
     if (uniform_) level(e, 0, nx_);
     vector_loop(0, nx_, [&](int i) { e[i] = std::clamp(1.0 - e[i], voidage_least, 1.0); });
   });
-  at_c_.gather(voids_, voidage_);
+  at_.c.gather(voids_, voidage_);
   if (params_.voidage == Voidage::on && params_.mode == Mode::two_way) pass_room(flow, interval);
 }
 
@@ -279,12 +208,12 @@ void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt)
   if (attached) {
     gusts_.fill(flow.mesh(), s, room_.packed, top_, params_.dispersion_time, viscosity_);
     slopes_of(gusts_.k, gust_slope_u_, gust_slope_v_);
-    at_c_.gather(std::array<const Field*, 2>{&gusts_.k, &gusts_.time}, {&gust_k_, &gust_time_});
-    at_u_.gather(std::array<const Field*, 3>{&s.u, &slope_u_, &gust_slope_u_}, {&g.fluid.u, &slope_x_, &gust_slope_x_});
-    at_v_.gather(std::array<const Field*, 3>{&s.v, &slope_v_, &gust_slope_v_}, {&g.fluid.v, &slope_y_, &gust_slope_y_});
+    at_.c.gather(std::array<const Field*, 2>{&gusts_.k, &gusts_.time}, {&gust_k_, &gust_time_});
+    at_.u.gather(std::array<const Field*, 3>{&s.u, &slope_u_, &gust_slope_u_}, {&g.fluid.u, &slope_x_, &gust_slope_x_});
+    at_.v.gather(std::array<const Field*, 3>{&s.v, &slope_v_, &gust_slope_v_}, {&g.fluid.v, &slope_y_, &gust_slope_y_});
   } else {
-    at_u_.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
-    at_v_.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
+    at_.u.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
+    at_.v.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
   }
   eddies_.begin_step();
   const double energy = params_.dispersion_energy, size = std::sqrt(energy);
@@ -304,14 +233,14 @@ void Coupler::feel_eddies(grains::State& g, const flow::Solver& flow, double dt)
 
 void Coupler::load_eddies(const grains::State& g, flow::Load& load) {
   // 2 beta (1 - t) k a grain of volume-averaged k-epsilon, t the share of an eddy's motion that the grain follows.
-  at_c_.scatter(std::array{&load.damping}, [&](int k) {
+  at_.c.scatter(std::array{&load.damping}, [&](int k) {
     const double followed =
         share_followed(params_.turbulence_inertia, response_time(g, k), eddy_k_[k] / eddy_epsilon_[k]);
-    return std::array{still_damps_[g.id[k]] = 2.0 * g.fluid.beta[k] * (1.0 - followed)};
+    return std::array{still_.damps[g.id[k]] = 2.0 * g.fluid.beta[k] * (1.0 - followed)};
   });
   for_each_item(0, load.top, [&](int j) {
     double* rate = load.damping.row(j);
-    const double* still = still_damping_.row(j);
+    const double* still = still_.damping.row(j);
     vector_loop(0, nx_, [&](int i) { rate[i] += still[i]; });
   });
 }
@@ -328,12 +257,12 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   const bool damped = params_.turbulence == Turbulence::damped, bounded = params_.turbulence != Turbulence::untouched,
              walks = params_.dispersion != Dispersion::none;
   if (bounded || params_.dispersion == Dispersion::attached) room_.average(flow.mesh(), voids_, top_);
-  if (damped || walks) at_c_.gather(std::array<const Field*, 2>{&s.k, &s.epsilon}, {&eddy_k_, &eddy_epsilon_});
+  if (damped || walks) at_.c.gather(std::array<const Field*, 2>{&s.k, &s.epsilon}, {&eddy_k_, &eddy_epsilon_});
   if (walks && !held) {
     feel_eddies(g, flow, dt);
   } else {
-    at_u_.gather(s.u, g.fluid.u);
-    at_v_.gather(s.v, g.fluid.v);
+    at_.u.gather(s.u, g.fluid.u);
+    at_.v.gather(s.v, g.fluid.v);
   }
   const double moving = held ? 0.0 : 1.0;
   std::visit(
@@ -354,10 +283,10 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
   for (Field* f : {&load.beta_u, &load.beta_v, &load.force_u, &load.force_v, &load.damping, &load.room})
     for (int j = 0; j < std::max(before, load.top); ++j) std::fill(f->row(j), f->row(j) + nx_ + 1, 0.0);
   if (held || params_.exchange == Exchange::implicit) {
-    at_u_.scatter(std::array{&load.beta_u, &load.force_u}, [&](int k) {
+    at_.u.scatter(std::array{&load.beta_u, &load.force_u}, [&](int k) {
       return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * (g.u[k] - eddy_u_[k])};
     });
-    at_v_.scatter(std::array{&load.beta_v, &load.force_v}, [&](int k) {
+    at_.v.scatter(std::array{&load.beta_v, &load.force_v}, [&](int k) {
       return std::array{g.fluid.beta[k], moving * g.fluid.beta[k] * (g.v[k] - eddy_v_[k])};
     });
   }
@@ -378,8 +307,8 @@ void Coupler::load_flow(grains::State& g, flow::Solver& flow, double dt, bool he
       b[nx_] = b[nx_ - 1], f[nx_] = f[nx_ - 1];  // the outlet face feels what its neighbour feels
     });
   };
-  per_volume(flow.at_u(), owed_u_, still_beta_u_, load.beta_u, load.force_u);
-  per_volume(flow.at_v(), owed_v_, still_beta_v_, load.beta_v, load.force_v);
+  per_volume(flow.at_u(), owed_u_, still_.beta_u, load.beta_u, load.force_u);
+  per_volume(flow.at_v(), owed_v_, still_.beta_v, load.beta_v, load.force_v);
   if (!bounded) return;
   room_.fill(flow.mesh(), top_, load.room);
   if (damped) load_eddies(g, load);
@@ -428,17 +357,17 @@ void Coupler::feel_water(const flow::Solver& flow, grains::State& g, double dt) 
     }
   });
   if (voids) {
-    at_u_.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
-    at_v_.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
+    at_.u.gather(std::array<const Field*, 2>{&s.u, &slope_u_}, {&g.fluid.u, &slope_x_});
+    at_.v.gather(std::array<const Field*, 2>{&s.v, &slope_v_}, {&g.fluid.v, &slope_y_});
   } else {
-    at_u_.gather(s.u, g.fluid.u);
-    at_v_.gather(s.v, g.fluid.v);
+    at_.u.gather(s.u, g.fluid.u);
+    at_.v.gather(s.v, g.fluid.v);
   }
   if (added) {
-    at_u_.gather(rate_u_, rate_x_);
-    at_v_.gather(rate_v_, rate_y_);
+    at_.u.gather(rate_u_, rate_x_);
+    at_.v.gather(rate_v_, rate_y_);
   }
-  if (lift) at_c_.gather(curl_, vorticity_);
+  if (lift) at_.c.gather(curl_, vorticity_);
 
   over_grains(moving_, [&](int k) {
     const double volume = base::sphere_volume(g.diameter[k]);
@@ -473,9 +402,9 @@ void Coupler::collect(grains::State& g, const flow::Solver& flow, double dt) {
   located_ = voids_filled_ = false;  // the grains have moved
   if (params_.mode != Mode::two_way) return;
   const flow::State& s = flow.state;
-  ledger_.to_grains.x += given_to_still(still_beta_u_, s.u, dt);
-  ledger_.to_grains.y += given_to_still(still_beta_v_, s.v, dt);
-  wake(g);
+  ledger_.to_grains.x += given_to_still(still_.beta_u, s.u, dt);
+  ledger_.to_grains.y += given_to_still(still_.beta_v, s.v, dt);
+  const std::vector<int>& woken = still_.wake(g, at_);
   locate(g);
   const double relative = params_.added_mass == AddedMass::relative ? materials_.added_mass * density_ : 0.0;
   const bool implicit = params_.exchange == Exchange::implicit;
@@ -497,12 +426,12 @@ void Coupler::collect(grains::State& g, const flow::Solver& flow, double dt) {
     const auto anticipated = [&](int k) { return implicit ? dt * g.fluid.beta[k] * (felt[k] - before[g.id[k]]) : 0.0; };
     to.scatter(std::array{&owed}, [&](int k) { return std::array{anticipated(k) - received(k)}; });
     for (const int k : moving_) to_grains += received(k);
-    for (const int k : woken_) to_grains -= anticipated(k);  // is in given_to_still
+    for (const int k : woken) to_grains -= anticipated(k);  // is in given_to_still
     carried = total(owed);
   };
-  one(at_u_, flow.at_u(), g.impulse_x, g.u, g.fluid.u, given_x_, before_u_, s.u, s.load.beta_u, s.load.force_u,
+  one(at_.u, flow.at_u(), g.impulse_x, g.u, g.fluid.u, given_x_, before_u_, s.u, s.load.beta_u, s.load.force_u,
       ledger_.to_flow.x, ledger_.to_grains.x, ledger_.carried.x, owed_u_);
-  one(at_v_, flow.at_v(), g.impulse_y, g.v, g.fluid.v, given_y_, before_v_, s.v, s.load.beta_v, s.load.force_v,
+  one(at_.v, flow.at_v(), g.impulse_y, g.v, g.fluid.v, given_y_, before_v_, s.v, s.load.beta_v, s.load.force_v,
       ledger_.to_flow.y, ledger_.to_grains.y, ledger_.carried.y, owed_v_);
   if (!g.sleep.asleep.empty()) settle(g, [&](int k) { return g.sleep.asleep[k] != 0; });
 }
@@ -527,7 +456,7 @@ void Coupler::to_fractions(Field& volumes) const {
 void Coupler::solid_fraction(const grains::State& g, Field& fraction) {
   std::vector<int> all(g.count());
   std::iota(all.begin(), all.end(), 0);
-  at_c_.locate(g.x, g.y, all);
+  at_.c.locate(g.x, g.y, all);
   located_ = false;
   fraction.fill(0.0);
   add_volumes(g, fraction);
@@ -535,7 +464,7 @@ void Coupler::solid_fraction(const grains::State& g, Field& fraction) {
 }
 
 void Coupler::add_volumes(const grains::State& g, Field& volumes) const {
-  at_c_.scatter(std::array{&volumes}, [&](int k) { return std::array{base::sphere_volume(g.diameter[k])}; });
+  at_.c.scatter(std::array{&volumes}, [&](int k) { return std::array{base::sphere_volume(g.diameter[k])}; });
 }
 
 }  // namespace livebed::coupling

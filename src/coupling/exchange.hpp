@@ -7,6 +7,7 @@
 #include "coupling/gusts.hpp"
 #include "coupling/params.hpp"
 #include "coupling/room.hpp"
+#include "coupling/still.hpp"
 #include "coupling/transfer.hpp"
 #include "flow/advance.hpp"
 #include "grains/state.hpp"
@@ -30,10 +31,6 @@ inline constexpr double step_over_response = 1;
 /// A face with less opening than this passes no pressure gradient on to grains [-]: the pressure in a sliver of a cell
 /// is whatever stops the little that flows there.
 inline constexpr double sliver = 0.05;
-/// The water around grains that are still is looked at every so many steps of the flow; deeper below the bed's surface
-/// than this [d], where nothing but the pressure changes, every so many rounds.
-inline constexpr int steps_a_round = 64, rounds_of_the_deep = 8;
-inline constexpr double surface_depth = 10;
 
 /// Sums of all impulses since the release [N s]; in the slab of thickness b.  The force of the pressure gradient is not
 /// among them: the water's own equation holds its counterpart.
@@ -62,10 +59,7 @@ struct Materials {
 ///   4  collect:      what the grains truly took is set against what the flow gave; the difference is owed
 /// Forces per volume in a cell are sums of forces over dx dy b with b the grain diameter (spheres in a slab).
 ///
-/// Grains that sleep (grains::Sleep) neither move nor see other water: in the first step of a round they are treated
-/// like all others (those deep in the bed in the first step of some rounds); from then on the sum of what they do to
-/// the cells is kept, and each is taken out of it when it wakes.  Grains that are held while the flow spins up are all
-/// still.
+/// Grains that sleep (grains::Sleep), and all while they are held, are still (StillGrains).
 ///
 /// Where the inlet is recycled the water has no beginning and no end and is the same all along the box: what the grains
 /// do to it is averaged along x, as in the one-dimensional flows that bed-load experiments are compared with (Revil-
@@ -100,13 +94,8 @@ public:
   template <class Self, class Visit>
   static void each_part(Self& self, Visit&& visit) {
     visit("owed_u", self.owed_u_), visit("owed_v", self.owed_v_);
-    visit("still_steps", self.steps_);
-    visit("still_x", self.still_x_), visit("still_y", self.still_y_);
-    visit("still_beta", self.still_beta_), visit("still_volume", self.still_volume_);
-    visit("still_damps", self.still_damps_);
     visit("still_given_x", self.given_x_), visit("still_given_y", self.given_y_);
-    visit("still_solid", self.still_solid_), visit("still_damping", self.still_damping_);
-    visit("still_beta_u", self.still_beta_u_), visit("still_beta_v", self.still_beta_v_);
+    StillGrains::each_part(self.still_, visit);
     if (self.params_.dispersion != Dispersion::none) Eddies::each_part(self.eddies_, visit);
   }
   void restore_ledger(const ImpulseLedger& ledger) { ledger_ = ledger; }
@@ -114,16 +103,9 @@ public:
 private:
   /// Weights of the grains that are not still.
   void locate(const grains::State& g);
-  /// Takes grains that have woken out of the sum of those that are still.
-  void wake(grains::State& g);
-  /// From the second step of a round on the grains for which rests(k) holds are still; before the first nobody is.
+  /// After a step: who is still in the next one, of those for which rests(k) holds.
   template <class Rests>
   void settle(grains::State& g, Rests&& rests);
-  void forget_still(grains::State& g);
-  /// Nobody near the bed's surface is still any more.
-  void unsettle_surface(grains::State& g);
-  /// Adds what the grains of a list do to the cells to the sums of those that are still, or takes it away again.
-  void add_still(const std::vector<int>& ids, double sign);
   /// Rows of the grid, from the floor, that the kernel of any grain touches.
   int rows_with_grains(const grains::State& g) const;
   void fill_voids(const grains::State& g, flow::Solver& flow, double interval);
@@ -150,7 +132,9 @@ private:
   std::vector<double> y_;  ///< of the rows' upper edges [m]
   double reach_ = 0;       ///< half-width of the kernel [m]
   double slab_ = 0, density_ = 0, viscosity_ = 0;
-  Transfer at_u_, at_v_, at_c_;
+  Kernels at_;
+  StillGrains still_;
+  std::vector<int> moving_;      ///< all others, in the order of the storage
   bool located_ = false;         ///< the weights belong to the present places of the grains
   bool voids_filled_ = false;    ///< so does the void fraction
   base::Field owed_u_, owed_v_;  ///< impulse owed to the flow [N s]
@@ -169,14 +153,6 @@ private:
   // By id, what the reaction on the water must know of a grain when the step is over: force whose counterpart is in the
   // water's own equation [N], velocity when the step began [m/s].
   grains::Array given_x_, given_y_, before_u_, before_v_;
-
-  // Grains that are still (FluidForce::still), by id: where they are [m] and what they do to the cells; and the sums.
-  std::int64_t steps_ = 0;  ///< with grains free to move
-  grains::Array still_x_, still_y_, still_beta_, still_volume_, still_damps_;
-  base::Field still_solid_, still_beta_u_, still_beta_v_, still_damping_;
-  std::vector<int> moving_;      ///< all others, in the order of the storage
-  std::vector<int> woken_;       ///< those of them that were still when the step began
-  std::vector<double> surface_;  ///< highest grain that is still, in columns along the box [m]
 
   base::Field volume_c_;  ///< of the cells, water and grains, slab included [m3]
   base::Field voids_, slope_u_, slope_v_, gust_slope_u_, gust_slope_v_, rate_u_, rate_v_, curl_;

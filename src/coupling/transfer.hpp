@@ -183,4 +183,12 @@ private:
   std::vector<int> bin_first_, order_, bin_of_;
 };
 
+/// Of the same grains over the volumes of u, of v and of scalars.
+struct Kernels {
+  Transfer u, v, c;
+  void locate(const grains::Array& x, const grains::Array& y, const std::vector<int>& which) {
+    for (Transfer* at : {&u, &v, &c}) at->locate(x, y, which);
+  }
+};
+
 }  // namespace livebed::coupling
