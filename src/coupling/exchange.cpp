@@ -121,14 +121,14 @@ void Coupler::let_leave(grains::State& g, const std::vector<int>& leaving) {
 }
 
 template <class Rests>
-void Coupler::settle(grains::State& g, Rests&& rests) {
+void Coupler::settle(grains::State& g, double exposed, Rests&& rests) {
   // What is asked of a grain in the step in which it wakes; of those asleep it is zero, as after a load.
-  for (const int k : still_.step(g, at_, rests)) before_u_[g.id[k]] = g.u[k], before_v_[g.id[k]] = g.v[k];
+  for (const int k : still_.step(g, at_, exposed, rests)) before_u_[g.id[k]] = g.u[k], before_v_[g.id[k]] = g.v[k];
   if (still_.changed()) located_ = voids_filled_ = false;
 }
 
 void Coupler::hold(grains::State& g) {
-  if (params_.mode == Mode::two_way) settle(g, [](int) { return true; });
+  if (params_.mode == Mode::two_way) settle(g, 0, [](int) { return true; });
 }
 
 void Coupler::let_go(grains::State& g) {
@@ -433,7 +433,8 @@ void Coupler::collect(grains::State& g, const flow::Solver& flow, double dt) {
       ledger_.to_flow.x, ledger_.to_grains.x, ledger_.carried.x, owed_u_);
   one(at_.v, flow.at_v(), g.impulse_y, g.v, g.fluid.v, given_y_, before_v_, s.v, s.load.beta_v, s.load.force_v,
       ledger_.to_flow.y, ledger_.to_grains.y, ledger_.carried.y, owed_v_);
-  if (!g.sleep.asleep.empty()) settle(g, [&](int k) { return g.sleep.asleep[k] != 0; });
+  const double exposed = params_.dispersion == Dispersion::none ? 0.0 : gust_depth;
+  if (!g.sleep.asleep.empty()) settle(g, exposed, [&](int k) { return g.sleep.asleep[k] != 0; });
 }
 
 double Coupler::given_to_still(const Field& beta, const Field& velocity, double dt) const {

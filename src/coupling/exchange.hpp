@@ -103,9 +103,10 @@ public:
 private:
   /// Weights of the grains that are not still.
   void locate(const grains::State& g);
-  /// After a step: who is still in the next one, of those for which rests(k) holds.
+  /// After a step: who is still in the next one, of those for which rests(k) holds and that lie deeper than `exposed`
+  /// below the surface [d].
   template <class Rests>
-  void settle(grains::State& g, Rests&& rests);
+  void settle(grains::State& g, double exposed, Rests&& rests);
   /// Rows of the grid, from the floor, that the kernel of any grain touches.
   int rows_with_grains(const grains::State& g) const;
   void fill_voids(const grains::State& g, flow::Solver& flow, double interval);

@@ -58,18 +58,10 @@ void StillGrains::forget(grains::State& g) {
 }
 
 void StillGrains::unsettle_surface(grains::State& g, Kernels& at) {
-  constexpr double wide = 3;  // columns [d]: each holds some grains of the topmost layer
-  const double per_width = 1.0 / (wide * diameter_);
-  const auto column = [&](int k) { return static_cast<std::size_t>(std::max(0.0, g.x[k] * per_width)); };
-  std::fill(surface_.begin(), surface_.end(), 0.0);
-  for (int k = 0; k < g.count(); ++k) {
-    if (!is_still(g, k)) continue;
-    if (column(k) >= surface_.size()) surface_.resize(column(k) + 1, 0.0);
-    surface_[column(k)] = std::max(surface_[column(k)], g.y[k]);
-  }
+  find_surface(g, [&](int k) { return is_still(g, k); });
   ids_.clear();
   for (int k = 0; k < g.count(); ++k) {
-    if (!is_still(g, k) || g.y[k] < surface_[column(k)] - surface_depth * diameter_) continue;
+    if (!is_still(g, k) || depth(g, k) > surface_depth) continue;
     g.fluid.still[k] = 0;
     ids_.push_back(g.id[k]);
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace livebed::coupling {
 /// than this [d], where nothing but the pressure changes, every so many rounds.
 inline constexpr int steps_a_round = 64, rounds_of_the_deep = 8;
 inline constexpr double surface_depth = 10;
+/// Grains less deep than this below the bed's surface [d] feel gusts, which are gone before a round is over: asleep or
+/// not, they are looked at in every step, or weak currents would move next to nothing.
+inline constexpr double gust_depth = 5;
 
 /// Whether the grain at place k of the storage is one of those.
 inline bool is_still(const grains::State& g, int k) { return !g.fluid.still.empty() && g.fluid.still[k] != 0; }
@@ -33,9 +37,10 @@ public:
 
   /// Goes on by a step of the flow with grains free to move.  Grains may have moved or begun to rest: in the last step
   /// of a round nobody near the surface is still any more, in that of some rounds nobody at all; in the first one those
-  /// are for which rests(k) holds.  Returns the places in the storage of those that have become so.
+  /// are for which rests(k) holds and that lie deeper than `exposed` below the highest of them nearby [d].  Returns the
+  /// places in the storage of those that have become so.
   template <class Rests>
-  const std::vector<int>& step(grains::State& g, Kernels& at, Rests&& rests) {
+  const std::vector<int>& step(grains::State& g, Kernels& at, double exposed, Rests&& rests) {
     begun_.clear();
     const std::int64_t place = ++steps_ % steps_a_round;
     if (place == 0 && steps_ / steps_a_round % rounds_of_the_deep == 0)
@@ -43,8 +48,9 @@ public:
     else if (place == 0)
       unsettle_surface(g, at);
     else if (place == 1) {
+      find_surface(g, [&](int k) { return is_still(g, k) || rests(k); });
       for (int k = 0; k < g.count(); ++k)
-        if (!is_still(g, k) && rests(k)) begun_.push_back(k);
+        if (!is_still(g, k) && rests(k) && depth(g, k) >= exposed) begun_.push_back(k);
       add(g, at, begun_);
     }
     return begun_;
@@ -76,6 +82,23 @@ private:
   /// Grains at these places of the storage are still from now on.
   void add(grains::State& g, Kernels& at, const std::vector<int>& which);
   void unsettle_surface(grains::State& g, Kernels& at);
+  /// surface_ <- height of the highest grain for which counts(k) holds, column by column.
+  template <class Counts>
+  void find_surface(const grains::State& g, Counts&& counts) {
+    std::fill(surface_.begin(), surface_.end(), 0.0);
+    for (int k = 0; k < g.count(); ++k) {
+      if (!counts(k)) continue;
+      const std::size_t column = column_of(g, k);
+      if (column >= surface_.size()) surface_.resize(column + 1, 0.0);
+      surface_[column] = std::max(surface_[column], g.y[k]);
+    }
+  }
+  std::size_t column_of(const grains::State& g, int k) const {
+    constexpr double wide = 3;  // [d]: each column holds some grains of the topmost layer
+    return static_cast<std::size_t>(std::max(0.0, g.x[k] / (wide * diameter_)));
+  }
+  /// Below that surface, of a grain that counts [d].
+  double depth(const grains::State& g, int k) const { return (surface_[column_of(g, k)] - g.y[k]) / diameter_; }
   /// Adds what grains do to the cells to the sums, or takes it away.
   void sum(Kernels& at, const std::vector<int>& ids, double sign);
 
@@ -83,7 +106,7 @@ private:
   std::int64_t steps_ = 0;               ///< with grains free to move
   grains::Array x_, y_, beta_, volume_;  ///< by id, of those that are still: [m], [N s/m], [m3]
   std::vector<int> begun_, woken_, ids_;
-  std::vector<double> surface_;  ///< highest grain that is still, in columns along the box [m]
+  std::vector<double> surface_;  ///< of the bed, in columns along the box [m]
 };
 
 }  // namespace livebed::coupling

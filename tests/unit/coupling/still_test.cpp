@@ -36,7 +36,7 @@ struct Column {
   /// A number of steps; asks(k) is who rests.
   template <class Asks>
   void steps(int n, Asks&& asks) {
-    for (int k = 0; k < n; ++k) still.step(g, at, asks);
+    for (int k = 0; k < n; ++k) still.step(g, at, 0, asks);
   }
   void steps(int n) {
     steps(n, [&](int k) { return g.sleep.asleep[k] != 0; });
@@ -109,6 +109,22 @@ TEST(still_grains, near_the_surface_are_so_for_a_round_and_deep_ones_for_some) {
   column.steps(rounds_of_the_deep * steps_a_round - steps_a_round - 1);
   EXPECT_EQ(column.number(), 0);
   EXPECT_EQ(Column::total(column.still.solid), 0);
+}
+
+TEST(still_grains, are_none_of_those_that_gusts_reach) {
+  Column column;
+  const auto asleep = [&](int k) { return column.g.sleep.asleep[k] != 0; };
+  for (int round = 0; round < 2; ++round) {
+    column.still.step(column.g, column.at, gust_depth, asleep);
+    // The topmost lies at 14 d, the next at 11, 8, 5 and 2 d.
+    for (int k = 0; k < Column::count; ++k) EXPECT_EQ(is_still(column.g, k), k >= 2) << "grain " << k;
+    column.expect_sums();
+    for (int n = 1; n < steps_a_round; ++n) column.still.step(column.g, column.at, gust_depth, asleep);
+  }
+  // One that is awake does not make a surface.
+  column.g.sleep.asleep[0] = 0;
+  column.still.step(column.g, column.at, gust_depth, asleep);
+  for (int k = 0; k < Column::count; ++k) EXPECT_EQ(is_still(column.g, k), k >= 3) << "grain " << k;
 }
 
 TEST(still_grains, forgotten_leave_nothing) {
