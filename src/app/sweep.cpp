@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sched.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -172,12 +171,6 @@ private:
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + std::chrono::seconds(2);
 };
 
-/// Those this program may use.
-int cores() {
-  cpu_set_t set;
-  return ::sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-}
-
 std::string result_of(const fs::path& folder) {
   const report::RunNumbers run = report::read_numbers(folder);
   return fmt::format("{}{}", run.ended.empty() ? "no summary" : run.ended,
@@ -204,7 +197,7 @@ Exit sweep(const Arguments& a) {
                        return do_run(cases[r].given, run_folder, a.no_bed_cache ? fs::path() : fs::path(a.bed_cache));
                      }});
   }
-  const int jobs = a.jobs > 0 ? a.jobs : std::max(1, cores() / threads);
+  const int jobs = a.jobs > 0 ? a.jobs : std::max(1, base::cores() / threads);
   Course course(a.quiet);
   course.say(fmt::format("{} combinations, {} runs: {} have ended before, {} to do, {} at a time",
                          plan.combinations.size(), cases.size(), cases.size() - tasks.size(), tasks.size(), jobs));

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <memory>
+#include <sched.h>
 #include <thread>
 
 #include "base/fault.hpp"
@@ -100,6 +101,12 @@ void set_threads(int n) {
 }
 
 int threads() { return thread_count; }
+
+int cores() {
+  cpu_set_t set;
+  return ::sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
 int thread_index() { return Team::index; }
 
 void on_all_threads(void (*work)(void* data, int share, int shares), void* data, bool alone) {

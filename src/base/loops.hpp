@@ -12,6 +12,9 @@ namespace livebed::base {
 void set_threads(int n);
 int threads();
 
+/// Those of this machine that the program may use.
+int cores();
+
 /// Which of them calls: 0 .. threads()-1.  For scratch that each thread has of its own.
 int thread_index();
 

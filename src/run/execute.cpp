@@ -6,10 +6,12 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "base/loops.hpp"
 #include "case/resolved.hpp"
 #include "grains/measures.hpp"
 #include "io/file.hpp"
 #include "run/control.hpp"
+#include "run/cost.hpp"
 #include "run/observers.hpp"
 #include "run/summary.hpp"
 
@@ -22,6 +24,15 @@ std::atomic<int> stop_requested{0};
 using WallClock = std::chrono::steady_clock;
 double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
+}
+
+/// From so many cells and grains together on a second thread pays (docs/performance.md).
+constexpr double threads_pay_from = 150'000;
+
+void advise(const casefile::Case& c, const Options& options) {
+  const Work work = work_of(c);
+  const std::string line = thread_advice(work.cells + work.grains, base::threads(), base::cores());
+  if (!line.empty()) options.say(line);
 }
 
 /// Steps until the end, a signal or a limit; writes what is due and the summary.  begun: when the program's work began,
@@ -119,6 +130,14 @@ base::Exit advance_to_end(Simulation& sim, Observers& observers, const std::file
 
 }  // namespace
 
+std::string thread_advice(double cells_and_grains, int threads, int cores) {
+  if (threads > 1 || cores < 2 || cells_and_grains < threads_pay_from) return "";
+  return fmt::format(
+      "note: on one of {} cores; if others are idle, livebed --threads {} is faster with a case of this size and gives "
+      "the same bits",
+      cores, cores);
+}
+
 void request_stop(int signal) { stop_requested = signal; }
 void obey_signals() {
   const auto once = [](int signal) {
@@ -139,6 +158,7 @@ base::Exit execute(const casefile::Case& given, const std::filesystem::path& fol
   Control control(folder);
   control.tell({.phase = "packing"}, true);
   const auto start = WallClock::now();
+  advise(given, options);
   options.say(fmt::format("packing {} grains", given.grains.count));
   WallClock::time_point last_word = start;
   const auto look = [&](const grains::SettleRow& row) {
@@ -219,6 +239,7 @@ base::Exit resume(const std::filesystem::path& folder, std::optional<double> unt
   }
   options.say(fmt::format("resuming at t = {:.4g} s from {}", restored->sim.time(), files.back().string()));
   if (!restored->note.empty()) options.say("note: " + restored->note + "; results may differ in the last bits");
+  advise(restored->sim.resolved(), options);
   Observers observers(folder, restored->sim, restored->progress);
   return advance_to_end(restored->sim, observers, folder, *control, start, options);
 }

@@ -36,6 +36,9 @@ base::Exit execute(const casefile::Case& given, const std::filesystem::path& fol
 /// read, command line when the new end lies before it.
 base::Exit resume(const std::filesystem::path& folder, std::optional<double> until, const Options& options);
 
+/// A line that tells of idle cores from which a case of this size would gain, or nothing.
+std::string thread_advice(double cells_and_grains, int threads, int cores);
+
 /// Signal that stopped the last run; 0 when none did.
 int stop_signal();
 
