@@ -13,10 +13,10 @@ namespace {
 
 class Control : public Program {
 protected:
-  /// Waits up to ten seconds for something to become true.
+  /// Waits up to a minute (the sanitizers are slow) for something to become true.
   template <class Holds>
   static bool wait(Holds&& holds) {
-    for (int n = 0; n < 1000 && !holds(); ++n) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (int n = 0; n < 6000 && !holds(); ++n) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return holds();
   }
   nlohmann::json status(const std::string& name) const {
