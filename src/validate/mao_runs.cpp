@@ -190,12 +190,14 @@ Result hold_against_mao(const Experiment& e, const Only& only, const Tell& tell)
         "Mao (1986)");
     add(made, fmt::format("{}rms of S/D over 1 to 25 s", when), depth_rms(s, unit, t, depth, 1, 25), "-", none, none,
         "Mao (1986)");
+    const auto mean = [&](double from, double to) {  // of runs that have come so far
+      return s.t.back() > 0.99 * to * unit ? mean_depth(s, from * unit, to * unit) : none;
+    };
     for (const auto& [from, to] : {std::pair{11, 13}, {23, 26}})
-      add(made, fmt::format("{}mean S/D over {} to {} s", when, from, to),
-          s.t.back() > 0.99 * to * unit ? mean_depth(s, from * unit, to * unit) : none, "-", none, none,
+      add(made, fmt::format("{}mean S/D over {} to {} s", when, from, to), mean(from, to), "-", none, none,
           fmt::format("Mao (1986): {:.2f}", base::interpolate(t, depth, 0.5 * (from + to))));
-    add(made, fmt::format("{}mean S/D over 30 to 37 s", when), mean_depth(s, 30 * unit, end_of_mao * unit), "-",
-        plateau_of_mao - 0.1, plateau_of_mao + 0.1, "Mao (1986): plateau 0.91");
+    add(made, fmt::format("{}mean S/D over 30 to 37 s", when), mean(30, end_of_mao), "-", plateau_of_mao - 0.1,
+        plateau_of_mao + 0.1, "Mao (1986): plateau 0.91");
     add(made, fmt::format("{}time to 63 % of Mao's plateau, mean over a second", when),
         first_time(s, (1 - std::exp(-1.0)) * plateau_of_mao, unit) / unit, "s", 11.06 * 0.85, 11.06 * 1.15,
         "Mao (1986): 11.06 s");
